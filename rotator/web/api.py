@@ -34,12 +34,12 @@ from rotator.web.scene import Scene, Station, box
 from rotator.web.schema import component
 
 Group = Callable[[Entrance], Sequence[Route]]
-"""Routes that know who asks."""
+"""Routes that need to know the sender."""
 
 
 @dataclass(frozen=True, slots=True)
 class Behind:
-    """What stands behind the page. `client` gives the box as a source sees it. `reading_open`: to those not paired."""
+    """The parts behind the page. `client` gives the box as a source sees it. `reading_open`: read without pairing."""
 
     status: Callable[[], Status]
     client: Callable[[Source], Box]
@@ -55,9 +55,9 @@ class Behind:
     groups: Sequence[Group] = ()
     """More routes."""
     works: Sequence[Callable[[], Coroutine[Any, Any, None]]] = ()
-    """What goes on as long as the page does."""
+    """Tasks that run as long as the page."""
     closes: Sequence[Callable[[], Coroutine[Any, Any, None]]] = ()
-    """What the end of the page ends."""
+    """Called at the end of the page."""
 
 
 class Api:
@@ -67,7 +67,7 @@ class Api:
         self._entrance = Entrance(behind.doors, behind.pairings, connections, reading_open=behind.reading_open)
         self._assets = assets.load()
         self._operating: dict[int, Operating] = {}
-        """By the number of a paired browser; 0: all that are not paired, who may only stop."""
+        """One for each number of a paired browser; 0: all browsers without pairing, which may only stop."""
 
     def application(self) -> web.Application:
         routes = [
@@ -119,7 +119,7 @@ class Api:
         return answer
 
     async def _log(self, request: web.Request) -> web.StreamResponse:
-        # It names people's browsers and their machines.
+        # The answer names people's browsers and machines.
         self._entrance.must_be_paired(request)
         said = self._behind.scene.said
         return web.json_response(
@@ -144,13 +144,13 @@ class Api:
         return socket
 
     def _is_still(self, who: Paired | None, request: web.Request) -> bool:
-        """Whether this browser is who it was. One that is paired no more comes back, to look on where it may."""
+        """Whether this browser has still the same rights. If its pairing ended, it must connect again."""
         now = self._entrance.who(request)
         return (now and now.number) == (who and who.number) and (now is not None or self._entrance.reading_open)
 
     def _jogging(self, request: web.Request) -> Callable[[Jog], str]:
         def order(jog: Jog) -> str:
-            # At each sign anew: it may have been revoked since.
+            # Ask at each sign: its pairing may have been revoked.
             who = self._entrance.who(request)
             return self._behind.scene.said(self._as(who).do(jog)) if who else "this browser is paired no more"
 
@@ -181,7 +181,7 @@ class Api:
     def _order(self, method: Method) -> Handler:
         async def answer(request: web.Request) -> web.StreamResponse:
             who = self._entrance.who(request) if method.free else self._entrance.must_be_paired(request)
-            # A stop counts whatever its body says.
+            # A stop counts with any body.
             command = method.command({} if method.free else await values_of(request))
             if isinstance(command, Release) and self._has_stopped_since(request):
                 return error(412, "it has been stopped again meanwhile: look at it, and press once more")
@@ -191,7 +191,7 @@ class Api:
         return answer
 
     def _has_stopped_since(self, request: web.Request) -> bool:
-        """Whether a stop has overtaken this request, which names those that its sender has seen (`If-Match`)."""
+        """Whether a stop has overtaken this request: its `If-Match` names the stops that its sender has seen."""
         seen = request.headers.get("If-Match")
         return seen is not None and seen != f'"{self._behind.scene.stops}"'
 

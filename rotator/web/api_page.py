@@ -1,6 +1,6 @@
 """The API as a page to read, made from its description: each request with its body, a line for curl, and its answers.
 
-Plain HTML without a script, so that it is there when nothing else is. Knows OpenAPI as `route` writes it. Does not know
+Plain HTML without a script, so that it works when nothing else does. Knows OpenAPI as `route` writes it. Does not know
 any single request.
 """
 
@@ -48,7 +48,7 @@ def api_page(described: dict[str, Any]) -> str:
 
 
 def _request(way: str, path: str, one: dict[str, Any]) -> str:
-    """One of them, to unfold."""
+    """One request, to unfold."""
     needs = "needs a token" if _needs_token(one) else ""
     told = [f"<summary><b>{way} {path}</b> {_text(one['summary'])} <small>{needs}</small></summary>"]
     for each in one.get("parameters", ()):
@@ -104,7 +104,7 @@ def _form(schema: Schema) -> str:
 
 
 def _kind(schema: Schema, indent: str = "") -> str:
-    """What a value is, in words; an object and a list line by line."""
+    """The kind of a value, in words; an object and a list line by line."""
     match schema:
         case {"$ref": str() as where}:
             name = where.rpartition("/")[2]

@@ -1,7 +1,7 @@
 """The files of the page, read once and compressed: serving them touches no disk.
 
-Knows the folder, the types of its files, and the headers that say where they may come from. Does not know what is in
-them.
+Knows the folder, the types of its files, and the headers that say where they may come from. Does not know their
+content.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
 }
-"""Of every answer. Nothing comes from elsewhere, and the page is shown in no other page's frame."""
+"""Headers of each answer. Nothing is loaded from elsewhere, and no other page may show this one in a frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,7 @@ class Asset:
 
 
 def load(folder: Path = FOLDER) -> dict[str, Asset]:
-    """By path, `/app.js`; `/` is the page itself."""
+    """The files by path, `/app.js`; `/` is the page itself."""
     found = {}
     for file in sorted(folder.rglob("*")):
         if file.suffix in _TYPES:

@@ -1,6 +1,6 @@
-"""The routes of the backup: the file to keep, a look at one before it is restored, and the restoring.
+"""The routes of the backup: the download, the check of a backup before it is restored, and the restoring.
 
-Knows HTTP. What a backup holds, and how it is put in place at the next start, is in `rotator.backup`.
+Knows HTTP. The content of a backup, and how the next start puts it in place, is in `rotator.backup`.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from rotator.web.schema import TEXT, ZIP, in_address, list_of, object_of, the
 log = logging.getLogger(__name__)
 
 MOST_ROWS = 400
-"""Of the difference: a page shows no more."""
+"""Lines of the difference that the page shows."""
 _LOOK = object_of(
     {
         "made": the("the day and time", TEXT),
@@ -40,7 +40,7 @@ _LOOK = object_of(
 
 
 class BackupApi:
-    """`config`: with which the box runs. `utc` gives seconds since 1970."""
+    """`config`: the running configuration. `utc` gives seconds since 1970."""
 
     def __init__(self, entrance: Entrance, file: BoxFile, config: Config, utc: Callable[[], float]) -> None:
         self._entrance = entrance
@@ -96,7 +96,7 @@ class BackupApi:
 
 
 def _shown(path: Path, data: bytes) -> dict[str, Any]:
-    """What a person wants to know of a backup before it is restored. Raises BackupError."""
+    """The facts about a backup that a person checks before it is restored. Raises BackupError."""
     backup: Backup = check(data)
     try:
         now = toml_text.read(path)

@@ -1,7 +1,7 @@
-"""The configuration file of the running box, as the page changes it: a proposal, then the new start with it.
+"""Changes the configuration file of the running box from the page: a proposal, then the new start with it.
 
-Knows the file, what a request must name, and that a new start stops the antenna. Does not know what is changed, nor
-HTTP.
+Knows the file, the values that a request must have, and that a new start stops the antenna. Does not know the changes
+themselves, nor HTTP.
 """
 
 from __future__ import annotations
@@ -26,26 +26,26 @@ from rotator.web.entrance import RefusedError
 from rotator.web.schema import TEXT, YES, object_of, the
 
 ANSWERED_S = 0.3
-"""The answer is out after this time: then the box ends, and the page with it."""
+"""Seconds until the answer is sent. Then the box ends, and the page with it."""
 NO_FILE = (
     "the box runs without a file, so there is nothing to change: `rotator config --to rotator.toml` writes one, "
     "`rotator run --config rotator.toml` runs it"
 )
 MOVES = "the antenna moves, and the new start stops it: send stop = true"
 STOP = {"stop": the("true: though the antenna moves, which stops", YES)}
-"""A value of each request that has the box start anew."""
+"""A value in each request that starts the box again."""
 ANEW = object_of({"ok": {"const": True}, "run": the("of the box that ends: after the start it is another one", TEXT)})
 
 
 @dataclass(frozen=True, slots=True)
 class BoxFile:
-    """`file`: None where the box runs without one. Raises RefusedError where the box does not do what is asked."""
+    """`file`: None if the box runs without one. Raises RefusedError if the box refuses the request."""
 
     file: Path | None
     anew: Anew
     status: Callable[[], Status]
     run: str = field(default_factory=lambda: secrets.token_hex(4))
-    """Another one after each start: so a browser knows that the box has started anew."""
+    """New after each start: it shows a browser that the box has started again."""
 
     @property
     def path(self) -> Path:
@@ -58,7 +58,7 @@ class BoxFile:
             return await asyncio.to_thread(settings, self.path)
 
     async def propose(self, begun: str, make: Callable[[str], str]) -> Proposal:
-        """`begun`: the digest of the text that the change starts from. `make`: of that text the new one."""
+        """`begun`: digest of the text that the change starts from. `make` returns the new text for it."""
         with _refusing():
             return await asyncio.to_thread(propose, self.path, begun, make)
 
@@ -67,18 +67,18 @@ class BoxFile:
             await asyncio.to_thread(write, self.path, proposal)
 
     def may_stop(self, *, stops: bool) -> None:
-        """`stops`: the person has been told that the antenna stops."""
+        """`stops`: whether the person agreed that the antenna stops."""
         if self.status().moving and not stops:
             raise RefusedError(MOVES)
 
     def begin_anew(self, sets_up: Axis | None = None) -> dict[str, Any]:
-        """The box starts anew as soon as this answer is out. `sets_up`: an axis that is calibrated then."""
+        """Start the box again as soon as this answer is sent. `sets_up`: an axis to calibrate then."""
         asyncio.get_running_loop().call_later(ANSWERED_S, lambda: self.anew.ask(self.status(), sets_up))
         return {"ok": True, "run": self.run}
 
 
 def stop_of(others: Mapping[str, object]) -> bool:
-    """The value `stop`, the only one beside those of the request itself. Raises WrongValuesError."""
+    """The value `stop`; no other value may be left in `others`. Raises WrongValuesError."""
     stop = others.get("stop", False)
     if set(others) - {"stop"} or not isinstance(stop, bool):
         raise WrongValuesError("stop must be true or false, and there is no other value here")
@@ -87,7 +87,7 @@ def stop_of(others: Mapping[str, object]) -> bool:
 
 @contextmanager
 def _refusing() -> Iterator[None]:
-    """What is wrong with the file, or with the change, as a refusal."""
+    """Turns an error of the file or of the change into a refusal."""
     try:
         yield
     except NoChangeError as reason:

@@ -1,6 +1,6 @@
-"""The page of the box: from the configuration, with the control loop and the links that stand behind it.
+"""Builds the page of the box from the configuration, the control loop and the links.
 
-The page's part of the composition root. Knows where the names of paired browsers are kept. Does not know what the page
+The page's part of the composition root. Knows the file with the names of paired browsers. Does not know what the page
 shows.
 """
 
@@ -46,7 +46,7 @@ log = logging.getLogger(__name__)
 
 
 def build_pairings(config: Config, clock_trusted: Callable[[], bool]) -> Pairings | None:
-    """None where the file wants no page."""
+    """None: the configuration has no page."""
     if not config.page.enabled:
         return None
     file = PairedFile(Path(config.state.path).with_name(FILE_NAME))
@@ -71,7 +71,7 @@ def build_page(
 ) -> PageThread:
     """Not started yet. `lcd`: the rows of the display, a code covered. `path`: the configuration's file.
 
-    `anew`: by which the box starts anew with it. `calibration`: the one that runs; None: the box runs as ever.
+    `anew`: starts the box again with that file. `calibration`: the running calibration; None: a normal run.
     `events`: the control loop's watch over the page's event loop.
     """
     host, port = address(config.page.listen)
@@ -95,7 +95,7 @@ def build_page(
     pairings.on_gone = give_back_for
 
     def behind() -> Behind:
-        # They take a while to load, and this is called in the page's thread.
+        # Slow to load; this function runs in the page's thread.
         from rotator.web.api import Behind  # noqa: PLC0415
         from rotator.web.box_file import BoxFile  # noqa: PLC0415
         from rotator.web.elements import ElementFiles  # noqa: PLC0415

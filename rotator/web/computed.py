@@ -1,6 +1,6 @@
-"""What a process of its own computes for the page, as JSON: kept for a while, and computed once for all who ask.
+"""Answers for the page, as JSON, that a process of its own computes: kept for a while, and computed once for all.
 
-It takes seconds of a small Pi's core, which neither the control nor a STOP shall notice. Knows commands and their
+An answer takes seconds of a small Pi's core; neither the control nor a STOP may wait for it. Knows commands and their
 answers. Does not know what is computed.
 """
 
@@ -17,14 +17,14 @@ LEAST_PRIORITY = ("nice", "-n", "19")
 
 
 def of_the_program(*words: str) -> tuple[str, ...]:
-    """A command of this program, behind all other work."""
+    """A command of this program, with the lowest priority."""
     return (*LEAST_PRIORITY, sys.executable, "-m", "rotator", *words)
 
 
 class Computed:
-    """`words`: the command. `named`: what it prints, in the words of an error. `shaped`: the answer, from its JSON.
+    """`words`: the command. `named`: what it prints, for an error. `shaped` makes the answer from the command's JSON.
 
-    `good`: the exit codes of a command that has printed it. `clock` gives seconds.
+    `good`: the exit codes with which the JSON is complete. `clock` gives seconds.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Computed:
         self._until_s = 0.0
 
     def told(self) -> dict[str, Any] | None:
-        """The answer; or `error`, why there is none. None: ask again, for it is computed now."""
+        """The answer, or `error` with the reason. None: it is being computed; ask again."""
         if self._clock() < self._until_s:
             return self._told
         if self._computing is None or self._computing.done():
@@ -56,25 +56,25 @@ class Computed:
         return None
 
     def latest(self) -> dict[str, Any] | None:
-        """What was computed last, though it may be old: the new is computed then. None: nothing yet."""
+        """The last answer. If it is old, a new one is being computed. None: no answer yet."""
         return self.told() or self._told or None
 
     async def close(self) -> None:
-        """The process that computes it ends."""
+        """End the process that computes."""
         computing = self._computing
         self.forget()
         if computing is not None:
             await asyncio.gather(computing, return_exceptions=True)
 
     def forget(self) -> None:
-        """It is computed anew when it is asked for: what it comes from has changed."""
+        """Its source has changed: compute it again at the next request."""
         self._until_s = 0.0
         if self._computing is not None:
             self._computing.cancel()
             self._computing = None
 
     async def newest(self) -> dict[str, Any]:
-        """As `told`, once it is there."""
+        """Wait for the answer. Returns the same as `told`."""
         while (told := self.told()) is None:
             assert self._computing is not None, "what is not there is computed"
             await asyncio.wait([self._computing])

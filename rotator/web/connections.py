@@ -1,7 +1,7 @@
-"""The connections of the page: how many at a time, and which one goes when it hangs or when a new one needs its place.
+"""The connections of the page: how many at a time, and which one is closed when it hangs or a new one needs its place.
 
-Knows transports and moments. A connection that asks nothing, or takes no answer, ends; so a flood of half-open ones
-keeps nobody from STOP. Does not know what is asked: `begin` and `end` tell when.
+Knows transports and times. A connection that sends no request, or reads no answer, is closed. So a flood of half-open
+connections cannot block a STOP. Does not know the requests: `begin` and `end` tell when they come and go.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from typing import cast
 
 MOST = 256
 SILENT_S = 8.0
-"""So long a connection may ask nothing, at its beginning too."""
+"""Seconds that a connection may stay without a request, also at its beginning."""
 ANSWER_S = 20.0
-"""So long an answer may take, with the time that the reader needs for it."""
+"""Seconds that an answer may take, including the time to read it."""
 LOOK_S = 1.0
 YOUNG_S = 1.0
-"""A connection of this age is spared where another one can go: its request is under way."""
+"""Seconds: a younger connection is closed last, because its request is on its way."""
 UNREAD_BYTES = 32_768
 
 
@@ -32,11 +32,11 @@ class _Open:
     since_s: float
     asks: bool = False
     live: bool = False
-    """It shows the antenna live, and lasts as long as it likes."""
+    """It is a WebSocket that shows the antenna live, and has no time limit."""
 
 
 def machine(address: str) -> str:
-    """What counts as one machine: of IPv6, the network of 64 bits in which it chooses its addresses freely."""
+    """The name of one machine. For IPv6 its network of 64 bits, in which a machine chooses its addresses freely."""
     try:
         ip = ipaddress.ip_address(address.partition("%")[0])
     except ValueError:
@@ -58,7 +58,7 @@ class Connections:
         return len(self._open)
 
     async def watch(self) -> None:
-        """End what hangs, until cancelled."""
+        """Close connections that hang, until cancelled."""
         while True:
             await asyncio.sleep(LOOK_S)
             self.look()
@@ -70,7 +70,7 @@ class Connections:
                 self._drop(one)
 
     def admit(self, transport: asyncio.Transport) -> bool:
-        """A new connection. Where all places are taken, another one goes."""
+        """Take a new connection. If all places are taken, another one is closed."""
         peer = transport.get_extra_info("peername")
         host = str(peer[0]) if peer else ""
         if not self._lets_in(host):
@@ -83,9 +83,10 @@ class Connections:
         return True
 
     def _least_needed(self) -> _Open:
-        """Of the machine that has most, the oldest. One that is live, or whose request may be under way, goes last.
+        """The oldest connection of the machine with the most connections. Live ones, and those whose request may be on
+        its way, come last.
 
-        Without that a crowd of machines with a connection each would push out a person who has two.
+        Otherwise many machines with one connection each would push out a person with two.
         """
         young_s = self._clock() - YOUNG_S
         still = [one for one in self._open.values() if not one.live] or list(self._open.values())
@@ -98,7 +99,7 @@ class Connections:
         self._note(transport, asks=True)
 
     def end(self, transport: asyncio.BaseTransport | None) -> None:
-        """Its answer is under way."""
+        """Its answer is being sent."""
         self._note(transport, asks=False)
 
     def live(self, transport: asyncio.BaseTransport | None) -> None:
@@ -123,7 +124,7 @@ class Connections:
 
 
 class Connection(asyncio.Protocol):
-    """Stands before the protocol of the HTTP library, and passes everything on once it is admitted."""
+    """Stands in front of the HTTP library's protocol, and passes everything on after it is admitted."""
 
     def __init__(self, connections: Connections, inner: asyncio.Protocol) -> None:
         self._connections = connections

@@ -1,7 +1,7 @@
-"""The diagnostics file: what another person needs to see what is wrong, in one zip, without secrets.
+"""The diagnostics file: the facts that another person needs to find a fault, in one zip, without secrets.
 
-Knows what goes into it, and what of the computer is worth telling. Every text in it passes through `redaction`. Changes
-nothing.
+Knows the content of the zip, and which facts of the computer belong in it. Each text passes through `redaction`. It
+changes nothing.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from rotator.web.redaction import REMOVED, Redaction, is_secret
 
 PACKAGES = ("aiohttp", "pydantic", "gpiod", "smbus2", "pyserial", "sgp4", "moteus", "spidev", "paho-mqtt")
 STATE_FILES = (counts.FILE_NAME, knobs.FILE_NAME, relays.FILE_NAME, compass.FILE_NAME)
-"""Beside the state file. Not the one of what is paired."""
+"""Files beside the state file, except the file of the pairings."""
 LARGEST_STATE = 100_000
 MACHINE_FILES = {
     "system": "/etc/os-release",
@@ -61,7 +61,7 @@ where strangers read.
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """What the box knows at this moment. `log`: its lines as (seconds since 1970, rank, text), the oldest first."""
+    """The present knowledge of the box. `log`: its lines as (seconds since 1970, rank, text), the oldest first."""
 
     config: Config
     status: Status
@@ -69,7 +69,7 @@ class Known:
     log: Sequence[tuple[float, str, str]]
     wires: Iterable[str]
     paired: int
-    """So many browsers and programs are paired."""
+    """The number of paired browsers and programs."""
     utc_s: float
 
 
@@ -98,7 +98,7 @@ def diagnostics(known: Known, redaction: Redaction, read: Callable[[Path], str |
 
 
 def read_text(path: Path) -> str | None:
-    """A file of a sensible size; None where it is none."""
+    """The text of a file; None: no file, or too large."""
     try:
         if not path.is_file():
             return None
@@ -169,6 +169,6 @@ def _moment(utc_s: float) -> str:
 
 
 def _stamp(utc_s: float) -> tuple[int, int, int, int, int, int]:
-    """A zip knows no year before 1980, and a Pi without a network may stand there."""
+    """The time of an entry, 1980 at the earliest: a zip has no year before, and a Pi without a network may be there."""
     moment = datetime.fromtimestamp(utc_s, UTC)
     return (max(1980, moment.year), moment.month, moment.day, moment.hour, moment.minute, moment.second)

@@ -1,7 +1,7 @@
-"""Whose requests are heard: from which networks, under which names, and from which pages.
+"""Which requests are accepted: from which networks, under which names of the box, and from which pages.
 
-Knows addresses and the headers Host, Origin and Sec-Fetch-Site. A foreign page in a visitor's browser is what they keep
-out: it cannot forge these. Knows no request object, and not what a request asks for.
+Knows addresses and the headers Host, Origin and Sec-Fetch-Site. They keep out a foreign page in a visitor's browser,
+which cannot forge them. Does not know request objects, nor what a request is for.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _HOST = re.compile(r"(\[[0-9a-fA-F:.]+\]|[A-Za-z0-9.-]{1,253})(?::[0-9]{1,5})?")
 
 
 class Doors:
-    """`names`: of this computer. `allow`: the networks that may come in; None: private ones."""
+    """`names`: of this computer. `allow`: the networks that may connect; None: private ones."""
 
     def __init__(self, names: Iterable[str], allow: Sequence[str] | None = None) -> None:
         self._names = {name.lower().rstrip(".") for name in names} | {"localhost"}
@@ -30,7 +30,7 @@ class Doors:
     def knows(self, host: str) -> bool:
         """Whether this is an address of the box, as the header Host names it.
 
-        A number always is: a page elsewhere can point its own name at the box, but not a number.
+        An IP address always is: a foreign page can point its own name at the box, but not an IP address.
         """
         found = _HOST.fullmatch(host)
         if found is None:
@@ -44,9 +44,9 @@ class Doors:
 
     @staticmethod
     def is_own(host: str, origin: str | None, site: str | None) -> bool:
-        """Whether a request that does something comes from the box's own page, or from no page at all.
+        """Whether a request that changes something comes from the box's own page, or from no page at all.
 
-        `origin`, `site`: the headers Origin and Sec-Fetch-Site; None where they are missing, as from curl.
+        `origin`, `site`: the headers Origin and Sec-Fetch-Site; None: missing, as from curl.
         """
         if site is not None and site not in ("same-origin", "none"):
             return False

@@ -1,7 +1,7 @@
-"""The elements of satellites on the page: which there are and how old, and files that a person sends.
+"""The elements of satellites on the page: their files and ages, and the upload of a file.
 
-Knows requests and bounds. A file is checked by the reader that reads all others, in a process of its own where it is
-large, and is taken whole or not at all. Does not know orbits, nor how elements are fetched.
+Knows requests and bounds. The usual reader checks each file, a large one in a process of its own. A file is taken
+whole or not at all. Does not know orbits, nor how elements are fetched.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ _TOLD = object_of({"satellites": WHOLE, "files": list_of(_FILE), "faults": list_
 
 
 class ElementFiles:
-    """`changed`: is called when a file is new or gone. `fetch`: the addresses of the configuration."""
+    """`changed` is called when a file is new or removed. `fetch`: the addresses in the configuration."""
 
     def __init__(
         self,
@@ -67,7 +67,7 @@ class ElementFiles:
         self._utc = utc
         self._reader = FileReader()
         self._one = asyncio.Lock()
-        """One file at a time: each takes memory and a core."""
+        """Allows one file at a time: each takes memory and a core."""
 
     def routes(self, entrance: Entrance) -> Sequence[Route]:
         async def told(request: web.Request) -> web.StreamResponse:
@@ -75,7 +75,7 @@ class ElementFiles:
             return web.json_response(await asyncio.to_thread(self.told))
 
         async def take(request: web.Request) -> web.StreamResponse:
-            # Before a byte of it is read: a stranger's file takes no memory.
+            # Before the first byte is read: a stranger's file must not take memory.
             entrance.must_be_paired(request)
             name = request.query.get("name", "")
             if not 0 < len(name) <= LONGEST_NAME:
@@ -117,11 +117,11 @@ class ElementFiles:
         )
 
     async def close(self) -> None:
-        """A file that is checked is given up."""
+        """Give up a file that is being checked."""
         self._reader.close()
 
     def _faults(self, path: Path) -> list[str]:
-        """What is wrong with a file that was sent. Raises OSError."""
+        """The errors in an uploaded file. Raises OSError."""
         try:
             found = self._reader.read(path)
         except UnicodeDecodeError:

@@ -1,6 +1,6 @@
-"""Who comes in to the page: which requests are heard, who asks, and what a request may hold.
+"""The entrance of the page: which requests are accepted, who sends them, and how large they may be.
 
-Knows headers, cookies and tokens, and the answers to those who may not. Does not know what a request asks for.
+Knows headers, cookies and tokens, and the answers of a refusal. Does not know what a request is for.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ _TOO_LONG = "this request has a body of at most {} bytes"
 
 
 class RefusedError(Exception):
-    """The request is understood, and the box as it stands does not do it. The words say why."""
+    """The request is understood, but the box cannot do it now. The text says why."""
 
 
 class Entrance:
-    """`reading_open`: those who are not paired may read. `most_body`: by path, where a request may be longer."""
+    """`reading_open`: reading without pairing is allowed. `most_body`: bytes by path, for longer requests."""
 
     def __init__(self, doors: Doors, pairings: Pairings, connections: Connections, *, reading_open: bool) -> None:
         self._doors = doors
@@ -51,7 +51,7 @@ class Entrance:
         except web.HTTPMethodNotAllowed:
             return error(405, f"there is no {request.method} {request.path[:60]!a}: /api/ lists all there is")
         except web.HTTPBadRequest:
-            # The library's own: it says it of a WebSocket alone.
+            # The library raises this only for a WebSocket.
             return error(400, f"{request.path} is a WebSocket: ask for it as one")
         except web.HTTPException as answer:
             return error(answer.status, answer.reason)
@@ -65,7 +65,7 @@ class Entrance:
             self._connections.end(request.transport)
 
     def _refused(self, request: web.Request) -> str:
-        """Why this request is not heard; empty: it is."""
+        """Why this request is refused; empty: it is accepted."""
         host = request.headers.get("Host", "")
         if not self._doors.knows(host):
             return "the box has another name: open the page by its number, or write [page] names into its file"
@@ -76,7 +76,7 @@ class Entrance:
         return ""
 
     def who(self, request: web.Request) -> Paired | None:
-        """The paired browser or program that asks; None: one that is not paired."""
+        """The paired browser or program that sends the request; None: not paired."""
         scheme, _, bearer = request.headers.get("Authorization", "").partition(" ")
         token = bearer.strip() if scheme.lower() == "bearer" else request.cookies.get(COOKIE, "")
         return self._pairings.known(token) if token else None
@@ -92,11 +92,11 @@ class Entrance:
             self.must_be_paired(request)
 
     def lasts(self, request: web.Request) -> None:
-        """This connection has become a WebSocket, and stays."""
+        """This connection has become a WebSocket, and has no time limit now."""
         self._connections.live(request.transport)
 
     def renew_cookie(self, request: web.Request, answer: web.Response) -> None:
-        """A pairing lasts from the latest visit on, and so does its cookie."""
+        """A pairing counts from the latest visit; its cookie too."""
         token = request.cookies.get(COOKIE, "")
         if token and self._pairings.known(token):
             set_cookie(answer, token)
@@ -133,7 +133,7 @@ async def bytes_of(request: web.Request, most: int) -> bytes:
 
 
 def computed(told: dict[str, Any] | None) -> web.Response:
-    """What takes a while to compute. None: 202, ask again. With `error` in it: 409."""
+    """The answer to a slow request. None: 202, ask again. With `error` in it: 409."""
     if told is None:
         return web.json_response({"computing": True}, status=202)
     return web.json_response(told, status=409 if "error" in told else 200)
@@ -147,7 +147,7 @@ def error(status: int, reason: str) -> web.Response:
 
 
 async def add_headers(_request: web.Request, answer: web.StreamResponse) -> None:
-    """Of every answer."""
+    """Add the headers of each answer."""
     for name, text in assets.HEADERS.items():
         answer.headers.setdefault(name, text)
     answer.headers.setdefault("Cache-Control", "no-store")

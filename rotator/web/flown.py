@@ -1,7 +1,7 @@
-"""The passes that were flown, on the page: each with its picture, the last ones on the disk.
+"""The flown passes on the page: each with its picture, the latest ones on the disk.
 
-Knows requests, and when to draw. A picture is drawn and written by a thread of its own, for a disk may be slow. Does
-not know how a pass is recorded.
+Knows requests, and when to draw. A thread of its own draws and writes a picture, because a disk may be slow. Does not
+know how a pass is recorded.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ _STYLE = re.compile(r"<style>(.*?)</style>", re.DOTALL)
 
 
 class FlownPictures:
-    """`status`: the latest. `utc`: seconds since 1970."""
+    """`status` gives the latest status. `utc` gives seconds since 1970."""
 
     def __init__(
         self,
@@ -100,7 +100,7 @@ class FlownPictures:
         )
 
     async def run(self) -> None:
-        """Look at every status, and draw what is over, until cancelled."""
+        """Watch each status, and draw each pass that is over, until cancelled."""
         while True:
             self._recorder.look(self._status())
             while self._over:
@@ -108,7 +108,7 @@ class FlownPictures:
                 try:
                     await asyncio.to_thread(self._keep, record)
                 except Exception:
-                    # A picture that cannot be drawn costs the picture, never the page and its STOP.
+                    # A failed picture must not end the page and its STOP.
                     log.exception("the picture of %s cannot be drawn", record.name)
             await asyncio.sleep(LOOK_S)
 
@@ -132,7 +132,7 @@ class FlownPictures:
 
 
 def policy(svg: str) -> str:
-    """What the picture's answer allows: its own style, known by its hash, and nothing else."""
+    """The security policy of the picture: only its own style, known by its hash."""
     found = _STYLE.search(svg)
     digest = base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode() if found else ""
     style = f"style-src 'sha256-{digest}'; " if digest else ""

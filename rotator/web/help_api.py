@@ -1,6 +1,6 @@
-"""The routes that help when something is wrong: the doctor, the bytes of the links, and a file for another person.
+"""The routes that help to find a fault: the doctor, the bytes of the links, and a file for another person.
 
-Knows HTTP, and who may see what. What is shown comes from the parts beside this file.
+Knows HTTP, and who may see what. The parts beside this file make the content.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LONGEST_NUMBER = 18
 WIRES = "A WebSocket: the bytes of the links, in the lines of `rotator monitor`"
 DIAGNOSTICS = "A zip with what another person needs to see what is wrong, without secrets"
 WITH_FAULTS = (0, 1, 2)
-"""The exit codes of `rotator doctor` that has printed its report."""
+"""The exit codes with which `rotator doctor` has printed its report."""
 _CHECK = object_of(
     {
         "name": TEXT,
@@ -48,7 +48,7 @@ REPORT = object_of(
 def doctor(
     path: Path, redaction: Redaction, clock: Callable[[], float], utc: Callable[[], float], *, kept_s: float
 ) -> Computed:
-    """The report of `rotator doctor` on this file, without secrets: everyone who may look reads it."""
+    """The report of `rotator doctor` on this file, without secrets, because reading may be open to all."""
 
     def shaped(told: dict[str, Any]) -> dict[str, Any]:
         return {**redaction.value(told), "at_s": utc()}
@@ -86,7 +86,7 @@ class HelpApi:
         return download(packed, "rotator-diagnostics.zip")
 
     async def _serve_wires(self, request: web.Request) -> web.StreamResponse:
-        # They name machines, and what people's programs send.
+        # The lines name machines, and show the bytes of people's programs.
         self._entrance.must_be_paired(request)
         if self._watch.is_full:
             return error(409, f"{MOST_WATCHERS} are watching already")

@@ -1,4 +1,4 @@
-"""The parts that help when something is wrong, put together for the page: doctor, wires, diagnostics, backup.
+"""Builds the parts that help to find a fault, for the page: doctor, wires, diagnostics, backup.
 
 Knows what each of them needs of the box, and which secrets the box holds. Does not know what the page shows.
 """
@@ -38,7 +38,7 @@ def help_groups(
 
     def pack(examined: dict[str, Any]) -> bytes:
         paired = pairings.all()
-        # The file goes to a stranger: people's browsers have numbers in it, no names.
+        # The file goes to a stranger: it has numbers in place of the names of people's browsers.
         names = {each.name: str(Source(PAGE, each.number)) for each in paired}
         known = Known(config, file.status(), examined, lines.kept(), wires.recording(), len(paired), time.time())
         return diagnostics(known, Redaction(hidden, names), read_text)

@@ -1,8 +1,7 @@
-"""The button that a person holds on the page: a motor turns only while fresh signs of the finger come.
+"""The button that a person holds on the page: a motor turns only while fresh signs of the finger arrive.
 
-Each sign names the latest picture that the browser has seen. So the box knows for how long the two have heard each
-other, whatever the browser's clock says, and a sign that was stuck in the network counts for nothing. Knows moments and
-orders. Does not know the socket.
+Each sign names the latest picture that the browser has seen. So the box knows the age of the sign without the browser's
+clock, and ignores a sign that was stuck in the network. Knows times and orders. Does not know the socket.
 """
 
 from __future__ import annotations
@@ -16,11 +15,11 @@ from rotator.orders import Jog
 from rotator.protocols.panel_words import TURNS
 
 LEASE_S = 0.45
-"""For so long after a picture was sent a sign that names it lets a motor turn."""
+"""Seconds after the sending of a picture in which a sign that names it lets a motor turn."""
 
 
 class Pictures:
-    """The moments at which the latest pictures were sent, by number."""
+    """The times at which the latest pictures were sent, by number."""
 
     def __init__(self) -> None:
         self._numbers = count(1)
@@ -29,14 +28,14 @@ class Pictures:
     def next(self, now_s: float) -> int:
         """The number of a picture that is sent now."""
         number = next(self._numbers)
-        # By age: a crowd of new browsers, each with a first picture, does not push out those that still count.
+        # Removed by age: many new browsers, each with a first picture, must not push out pictures that still count.
         while self._sent and now_s - self._sent[0][1] > LEASE_S:
             self._sent.popleft()
         self._sent.append((number, now_s))
         return number
 
     def sent_s(self, number: int) -> float | None:
-        """None: it is older than those that are kept, or was never sent."""
+        """When this picture was sent. None: too old, or never sent."""
         return next((at_s for each, at_s in self._sent if each == number), None)
 
 
@@ -68,7 +67,7 @@ class Holding:
         return ""
 
     def let_go(self) -> None:
-        """The button is held no more, or the browser has gone."""
+        """The button was released, or the browser has gone."""
         if self._held is not None:
             self._release()
         self._until_s = 0.0

@@ -1,7 +1,7 @@
-"""The live connection of a browser: ten pictures of the box a second, and the button that is held.
+"""The live connection of a browser: ten pictures of the box a second, and the held button.
 
-Knows the WebSocket. A reader that is slow gets the newest picture and no queue; one that takes none is dropped. Does
-not know what a picture holds, nor who may give orders: it is told at each sign.
+Knows the WebSocket. A slow reader gets the newest picture and no queue; a reader that takes no picture is dropped.
+Does not know the content of a picture. The caller decides who may give orders.
 """
 
 from __future__ import annotations
@@ -17,12 +17,13 @@ from aiohttp import WSMsgType, web
 
 from rotator.protocols.panel_words import TURNS
 from rotator.web.holding import LEASE_S, Holding, Pictures
+from rotator.web.slow_reader import dropped_if_slow
 
 log = logging.getLogger(__name__)
 
 EVERY_S = 0.1
 TAKES_S = 5.0
-"""A browser that takes a picture in no less than this is dropped."""
+"""Seconds: a browser that needs longer to take a picture is dropped."""
 LONGEST_SIGN = 256
 MOST_SIGNS_PER_S = 40
 MOST_WATCHERS = 80
@@ -58,7 +59,7 @@ where it concerns one:
 
 
 class Live:
-    """`picture` makes what is shown now; it is asked once for all browsers. `clock` gives seconds."""
+    """`picture` makes the present picture, once for all browsers. `clock` gives seconds."""
 
     def __init__(
         self, picture: Callable[[], dict[str, Any]], note: Callable[[], None], clock: Callable[[], float]
@@ -70,13 +71,13 @@ class Live:
         self._text = ""
         self._new = asyncio.Event()
         self._watchers: dict[web.WebSocketResponse, str] = {}
-        """Each with its machine; the oldest first."""
+        """The connections, each with its machine; the oldest first."""
 
     def __len__(self) -> int:
         return len(self._watchers)
 
     async def run(self) -> None:
-        """Make pictures until cancelled; without a browser only what is kept of the past, once a second."""
+        """Make pictures until cancelled. Without a browser, only add a point to the past once a second."""
         noted_s, failed = 0.0, False
         while True:
             now_s = self._clock()
@@ -90,7 +91,7 @@ class Live:
                     new.set()
                 failed = False
             except Exception:
-                # The next one may be good again. A browser without pictures says so itself.
+                # The next one may be good again. A browser without pictures shows that itself.
                 if not failed:
                     log.exception("page: a picture cannot be made")
                 failed = True
@@ -106,12 +107,12 @@ class Live:
         stop: Callable[[], str],
         host: str,
     ) -> None:
-        """Until the browser leaves, or may look no more. `holding`: None for one that may only look.
+        """Serve until the browser leaves or loses its right to look. `holding` None: it may only look.
 
-        `stop` stops everything: anybody may. `host`: the browser's machine.
+        `stop` stops everything; every browser may call it. `host`: the browser's machine.
         """
         if len(self._watchers) >= MOST_WATCHERS:
-            # As with connections: of the machine that has most, the oldest.
+            # As in `connections`: the oldest of the machine with the most.
             most, _ = Counter(self._watchers.values()).most_common(1)[0]
             oldest = next(one for one, theirs in self._watchers.items() if theirs == most)
             del self._watchers[oldest]
@@ -128,7 +129,7 @@ class Live:
             self._watchers.pop(socket, None)
 
     async def _send(self, socket: web.WebSocketResponse, hello: dict[str, Any], may_look: Callable[[], bool]) -> None:
-        try:
+        with dropped_if_slow(socket):
             async with asyncio.timeout(TAKES_S):
                 await socket.send_str(json.dumps({"hello": hello} | json.loads(self._made(self._clock()))))
             while not socket.closed:
@@ -138,10 +139,6 @@ class Live:
                     return
                 async with asyncio.timeout(TAKES_S):
                     await socket.send_str(self._text)
-        except (TimeoutError, ConnectionError, RuntimeError):
-            # It takes nothing, or has gone. Its reader ends with the transport.
-            if (transport := socket.get_extra_info("transport")) is not None:
-                transport.abort()
 
     def _made(self, now_s: float) -> str:
         return json.dumps({"n": self.pictures.next(now_s), "now": self._picture()}, separators=(",", ":"))
@@ -164,7 +161,7 @@ class Live:
 
 
 def _act(text: str, holding: Holding | None, now_s: float) -> Answer:
-    """Returns why not, and which press it was; empty: done."""
+    """Carry out a message. Returns the number of the press and why it was refused; empty: done."""
     try:
         sign = json.loads(text)
     except ValueError:

@@ -1,6 +1,6 @@
-"""The log for the page, and what of HTTP goes into the log: strangers' junk is told in one line, now and then.
+"""The log for the page, and the log lines of HTTP: junk from strangers makes one line now and then.
 
-Knows log records. Keeps the latest lines in memory, and writes nothing. Does not know who reads them.
+Knows log records. Keeps the latest lines in memory, and writes nothing. Does not know the readers.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _RANKS = {"D": "note", "I": "note", "W": "warning", "E": "error", "C": "error"}
 
 
 class LogLines(logging.Handler):
-    """The latest lines of the box's log. `keep` and `forget` begin and end that."""
+    """Keeps the latest lines of the box's log, from `keep` to `forget`."""
 
     def __init__(self) -> None:
         super().__init__(logging.INFO)
@@ -35,7 +35,7 @@ class LogLines(logging.Handler):
             text = record.getMessage().splitlines()[:1]
             self._lines.append((record.created, _RANKS.get(record.levelname[:1], "note"), "".join(text)[:LONGEST_LINE]))
         except Exception:
-            # As every handler does: a line that cannot be written ends nothing of the box.
+            # As in every handler: a line that cannot be written must not end a part of the box.
             self.handleError(record)
 
     def kept(self) -> list[tuple[float, str, str]]:
@@ -48,7 +48,7 @@ class LogLines(logging.Handler):
 
 
 class HttpLog(logging.Filter):
-    """Of the HTTP library's log: a request that is none costs one line without a trace, and rarely."""
+    """A filter for the HTTP library's log: bytes that are no request make one line without a traceback, and rarely."""
 
     def __init__(self, junk: type[BaseException], clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__()

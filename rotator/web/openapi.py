@@ -1,6 +1,6 @@
 """The description of the API, as OpenAPI 3.1: made from the same tables as the API itself.
 
-Knows what all routes have in common: who may ask, the errors, the status. Does not know how a request is served.
+Knows the common part of all routes: rights, errors, status. Does not know how a request is served.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Who may move the antenna from the page: the code that pairs a browser, and the tokens of those that are paired.
+"""Who may move the antenna from the page: the code that pairs a browser, and the tokens of paired browsers.
 
 Knows codes, tries, waits and tokens. Time comes from two clocks. Does not know HTTP, nor where the code is shown. A
 token is shown once, to its owner; only its hash is kept.
@@ -23,26 +23,27 @@ log = logging.getLogger(__name__)
 CODE_S = 120.0
 TRIES = 5
 WAIT_S, LONGEST_WAIT_S = 300.0, 14_400.0
-"""After so many wrong codes no browser can begin for so long, then twice as long, until one is paired. A person at the
-box can: `rotator pair`."""
+"""Wrong codes after which no browser can begin, and the seconds of that wait. It doubles until a browser is paired. A
+person at the box can always begin: `rotator pair`."""
 UNUSED = 3
-"""So many codes may go unused before a browser has to wait for the next: the display is needed for other things."""
+"""Unused codes before a browser has to wait for the next one: the display is needed for other things."""
 MOST_TRIES = 50
-"""At the code of `rotator pair` each machine has five tries, so no stranger uses up the owner's; all: so many."""
+"""Tries of all machines together at the code of `rotator pair`. Each machine has five, so that a stranger cannot use
+up the owner's tries."""
 LASTS_S = 180 * 86_400.0
-"""What was not seen for so long is paired no more."""
+"""Seconds: a pairing unused this long ends."""
 NOTED_S = 86_400.0
-"""The file learns at most once a day that somebody was there."""
+"""Seconds: a visit is written to the file at most once a day."""
 _BY_BROWSER = ""
-"""In place of a machine's address: the tries at codes that browsers have asked for are counted together."""
+"""In place of a machine's address: tries at codes that browsers requested are counted together."""
 
 
 class NotPairedError(Exception):
-    """The pairing does not succeed. The text says why, and what to do."""
+    """The pairing fails. The text says why, and what to do."""
 
 
 class Pairings:
-    """May be used from any thread. `clock` gives seconds, `utc` seconds since 1970; `trusted`: whether those are right.
+    """May be used from any thread. `clock` gives seconds, `utc` seconds since 1970; `trusted`: whether `utc` is right.
 
     `known`, `shown` and `named` answer from memory. The others may wait for the disk.
     """
@@ -59,19 +60,19 @@ class Pairings:
         self._utc = utc
         self._trusted = trusted
         self.on_gone: Callable[[Paired], None] = lambda _gone: None
-        """Hears of one that is paired no more."""
+        """Called when a pairing has ended."""
         self._lock = threading.Lock()
         self._saving = threading.Lock()
         kept = file.load()
         self._paired = {each.digest: each for each in kept.paired}
         self._highest = kept.highest
         self._written = self._list()
-        """What the file says."""
+        """The content of the file."""
         self._code = ""
         self._by_person = False
         self._until_s = 0.0
         self._wrong: Counter[str] = Counter()
-        """Wrong codes by the machine that sent them."""
+        """The number of wrong codes of each machine."""
         self._rounds = self._unused = 0
         self._waits_until_s = 0.0
 
@@ -89,7 +90,7 @@ class Pairings:
         return self._code
 
     def ask(self) -> None:
-        """A browser asks for a code to be shown at the box. Raises NotPairedError while it has to wait."""
+        """Show a code at the box, requested by a browser. Raises NotPairedError while the browser has to wait."""
         with self._lock:
             if self._shown():
                 return
@@ -132,7 +133,7 @@ class Pairings:
         return self._add(name)
 
     def _used_up(self) -> float:
-        """A machine has had its five tries, or browsers have had theirs together. Returns how long it has to wait."""
+        """The tries of a machine, or of all browsers together, are used up. Returns the seconds to wait."""
         if self._by_person:
             if self._wrong.total() - self._wrong[_BY_BROWSER] >= MOST_TRIES:
                 self._code = ""
@@ -150,18 +151,18 @@ class Pairings:
     # --- those that are paired
 
     def token(self, name: str) -> str:
-        """A token for a program, by a person at the box."""
+        """A token for a program, requested by a person at the box."""
         with self._lock:
             token, _ = self._add(name)
         self.keep()
         return token
 
     def known(self, token: str) -> Paired | None:
-        """Whose token this is; None: it is no token, or not any more."""
+        """The owner of this token; None: not a valid token."""
         digest, now_s = _digest(token), self._utc()
         with self._lock:
             one = self._paired.get(digest)
-            # A clock that was wrong for an hour must not end what people have paired.
+            # A clock that was wrong for an hour must not end pairings.
             if one is None or now_s - one.seen_s <= NOTED_S or not self._trusted():
                 return one
             if one.seen_s and now_s - one.seen_s > LASTS_S:
@@ -171,9 +172,9 @@ class Pairings:
             return one
 
     def keep(self) -> None:
-        """Write the file, if it does not say this yet. Waits for the disk, and holds up no other call meanwhile.
+        """Write the file if something has changed. Waits for the disk, but does not block other calls meanwhile.
 
-        What the disk has refused is tried again by the next call.
+        After a failed write the next call tries again.
         """
         with self._saving:
             with self._lock:
@@ -182,7 +183,7 @@ class Pairings:
                 self._written = now
 
     def all(self) -> Sequence[Paired]:
-        """All of them, the oldest first."""
+        """All pairings, the oldest first."""
         with self._lock:
             return self._list().paired
 
@@ -190,11 +191,11 @@ class Pairings:
         return PairedList(tuple(sorted(self._paired.values(), key=lambda each: each.number)), self._highest)
 
     def paired(self) -> list[str]:
-        """A line for each."""
+        """A line for each pairing."""
         return [f"{each.number}  {each.name}, paired {_day(each.since_s)}" for each in self.all()]
 
     def named(self, number: int) -> str:
-        """Its name; empty: there is none of this number."""
+        """The name of a pairing; empty: no pairing with this number."""
         with self._lock:
             return next((each.name for each in self._paired.values() if each.number == number), "")
 
@@ -212,7 +213,7 @@ class Pairings:
         token, now_s = secrets.token_urlsafe(32), self._utc()
         if len(self._paired) >= MOST:
             self._drop(min(self._paired.values(), key=lambda each: each.seen_s or each.since_s))
-        # No number is given twice: what one of them has ordered, or holds, is not the next one's.
+        # No number is used twice: the orders of an old pairing must not belong to a new one.
         self._highest += 1
         seen_s = now_s if self._trusted() else 0.0
         one = Paired(self._highest, self._own_name(_tidy(name)), _digest(token), now_s, seen_s)
@@ -221,7 +222,7 @@ class Pairings:
         return token, one
 
     def _own_name(self, name: str) -> str:
-        """With a number where another one has this name: people tell them apart by it."""
+        """The name, with a number if another pairing has the same name."""
         taken = {each.name for each in self._paired.values()}
         names = (name, *(f"{name[: LONGEST_NAME - 3]} {number}" for number in range(2, MOST + 2)))
         return next(each for each in names if each not in taken)

@@ -1,4 +1,4 @@
-"""The routes of pairing: a code at the box, a browser that is paired by it, the list of all, and its end.
+"""The routes of pairing: show a code at the box, pair a browser with it, list all pairings, end one.
 
 Knows HTTP. Codes and tokens are in `pairing`.
 """
@@ -104,7 +104,7 @@ class PairingApi:
 
 
 def hello(who: Paired | None) -> dict[str, Any]:
-    """What a browser is told of itself."""
+    """The answer to a browser about its own pairing."""
     return {
         "paired": who is not None,
         "name": who.name if who else None,

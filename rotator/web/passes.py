@@ -46,14 +46,14 @@ PASS = object_of(
 
 
 def command(path: Path) -> tuple[str, ...]:
-    """Prints the passes of what this configuration names, as JSON."""
+    """The command that prints the passes of the configured targets, as JSON."""
     return of_the_program("sky", "passes", "--json", "--hours", str(HOURS), "--config", str(path))
 
 
 class Passes:
-    """`words`: the command; None: the box knows no place. `clock` gives seconds.
+    """`words`: the command; None: the configuration has no place of the station. `clock` gives seconds.
 
-    `elements`: what the box knows of the satellites, the same object until something of it is new.
+    `elements` gives the elements of the satellites: the same object until one changes.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class Passes:
 
     @property
     def latest(self) -> list[dict[str, Any]] | None:
-        """Those that were computed last, though they may be old: new ones are computed then. None: there were none."""
+        """The last computed passes. If they are old, new ones are being computed. None: none yet."""
         if self._computed is None:
             return []
         self._look()
@@ -77,22 +77,22 @@ class Passes:
         return None if latest is None else latest.get("passes", [])
 
     def forget(self) -> None:
-        """They are computed anew when they are asked for: elements or priorities have changed."""
+        """Elements or priorities have changed: compute the passes again at the next request."""
         if self._computed:
             self._computed.forget()
 
     async def close(self) -> None:
-        """The process that computes them ends."""
+        """End the process that computes."""
         if self._computed:
             await self._computed.close()
 
     def told(self) -> dict[str, Any] | None:
-        """`passes`, or `error`, why there are none. None: ask again, for they are computed now."""
+        """`passes`, or `error` with the reason. None: they are being computed; ask again."""
         self._look()
         return self._computed.told() if self._computed else {"error": NO_PLACE}
 
     def _look(self) -> None:
-        """Fetched elements, or a file that was copied there, change the passes too."""
+        """Forget the passes if elements are new: fetched, or copied into the folder."""
         elements = self._elements()
         if elements is not self._computed_for:
             self._computed_for = elements

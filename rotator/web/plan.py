@@ -1,7 +1,7 @@
-"""The sky for the page: the passes of the next day with their plan, the next one, and the order of what is followed.
+"""The sky for the page: the passes of the next day with their plan, the next pass, and the order of the targets.
 
-Knows what `rotator sky passes --json` prints. The order that a person drags is kept beside the configuration, which
-stays as it was written. Does not know how a plan is made.
+Knows the output of `rotator sky passes --json`. The order that a person drags is stored beside the configuration, which
+does not change. Does not know how a plan is made.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ from rotator.web.schema import NUMBER, TEXT, body_of, list_of, object_of, the
 Told = dict[str, Any]
 LONGEST_ORDER = 16_384
 LEAST_DEG = 10.0
-"""Without a plan the next pass is the next that rises so high."""
+"""Degrees: without a plan the next pass is the first that rises this high."""
 POINTS = 40
-"""Of the path of the next pass."""
+"""Points of the path of the next pass."""
 _POINTS = the("azimuth and elevation", list_of(list_of(NUMBER, 2)))
 _NEXT = the(
     "Empty: there is none",
@@ -54,7 +54,7 @@ _ORDER = body_of(
 
 
 class Plan:
-    """`changed`: is called when the order is another one. `utc`: seconds since 1970."""
+    """`changed` is called when the order has changed. `utc` gives seconds since 1970."""
 
     def __init__(
         self,
@@ -73,7 +73,7 @@ class Plan:
         self._changed = changed
         self._utc = utc
         self._next: tuple[str, Told] = ("", {})
-        """The next pass as it was told, by its name and rise."""
+        """The next pass as last sent, by its name and rise."""
 
     def routes(self, entrance: Entrance) -> Sequence[Route]:
         async def passes(request: web.Request) -> web.StreamResponse:
@@ -113,7 +113,7 @@ class Plan:
     # --- what is followed
 
     def followed(self) -> list[Told]:
-        """What the configuration follows, the highest priority first."""
+        """The targets of the configuration, the highest priority first."""
         rows = [self._row(each) for each in self._follow]
         return sorted(rows, key=lambda row: -row["priority"])
 
@@ -134,7 +134,7 @@ class Plan:
         }
 
     def reorder(self, names: Sequence[object]) -> str:
-        """What stands further up counts more. Returns why not; empty: it does."""
+        """Set the priorities by this order, the most important first. Returns why not; empty: done."""
         written = {each.name: each.priority for each in self._follow}
         order = [name for name in names if isinstance(name, str)]
         if len(order) != len(names) or sorted(order) != sorted(written):
@@ -143,7 +143,7 @@ class Plan:
         return self._put(dict(zip(order, ranked(inforce), strict=True)), written)
 
     def as_written(self) -> str:
-        """The priorities of the configuration again."""
+        """Restore the priorities of the configuration."""
         written = {each.name: each.priority for each in self._follow}
         return self._put(written, written)
 
@@ -154,7 +154,7 @@ class Plan:
     # --- the next pass
 
     def upcoming(self) -> Told | None:
-        """The next pass of the plan, else the next good one, with its path; empty: there is none; None: ask again."""
+        """The next pass of the plan, or the next good one without a plan, with its path; {}: none; None: ask again."""
         if not self._sky.elements and not self._follow:
             return {}
         passes = self._passes.latest
@@ -169,7 +169,7 @@ class Plan:
         return self._next[1]
 
     def _path(self, found: Told) -> list[list[float]]:
-        """Its directions, as far as its elements are still known."""
+        """The directions of the pass; empty if its elements are no longer known."""
         begin_s, end_s = (datetime.fromisoformat(found[key]).timestamp() for key in ("aos", "los"))
         try:
             wanted = self._sky.find(found["name"])
@@ -184,7 +184,7 @@ class Plan:
 
 
 def next_pass(passes: Sequence[Told], now_s: float) -> Told | None:
-    """The first that is to come: of the plan; where nothing is planned, of those that rise high enough."""
+    """The first pass to come in the plan. If nothing is planned: the first that rises high enough."""
     now = datetime.fromtimestamp(now_s).astimezone()
     to_come = [each for each in passes if each["aos"] and each["los"] and datetime.fromisoformat(each["aos"]) > now]
     planned = [each for each in to_come if each["plan"] and each["plan"]["flown"]]

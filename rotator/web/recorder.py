@@ -1,7 +1,7 @@
-"""Records how the box flies a pass that it knows: target, antenna, motors, each half a second, and every relay's click.
+"""Records the flight of a known pass: target, antenna, motors, each half a second, and each switching of a relay.
 
-Knows statuses and the path of the flight's order. A pass of any length takes bounded memory: a long one is thinned.
-Moments are those of the status. Does not know files, nor how a pass is drawn.
+Knows statuses and the path of the flight's order. The memory is bounded: a long pass is thinned. Times are those of the
+status. Does not know files, nor how a pass is drawn.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from rotator.views.trace import Sample, errors_deg, rms
 EVERY_S = 0.5
 MOST_SAMPLES, MOST_CLICKS = 4000, 2000
 LEAST_S = 20.0
-"""What the antenna followed for less is no pass to show."""
+"""Seconds: a flight followed for less is not shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """A pass that is over. `begin_s`: when its samples begin, on the clock of the status; they count from there."""
+    """A pass that is over. `begin_s`: begin of its samples on the clock of the status; their times count from it."""
 
     name: str
     begin_s: float
@@ -69,11 +69,11 @@ class _Running:
             self.trace, self.every_s = self.trace[::2], 2 * self.every_s
 
     def _count(self, axis: Axis, seen: AxisStatus, t_s: float) -> None:
-        """The controller counts the starts: a look between two of them would miss a short one."""
+        """Take the controller's count of starts: samples alone would miss a short run."""
         if (starts := seen.starts) is None:
             return
         self.relays = True
-        # A motor that runs already when the record begins has been started just now.
+        # A motor that already runs when the record begins counts as just started.
         new = starts - self.starts.get(axis.value, starts - abs(int(seen.drive)))
         self.starts[axis.value] = starts
         clicks_s = self.clicks_s[axis.value]
@@ -81,16 +81,16 @@ class _Running:
 
 
 class Recorder:
-    """`look` belongs to one thread."""
+    """`look` may be called from one thread only."""
 
     def __init__(self) -> None:
         self.over: Callable[[Record], None] = lambda _record: None
-        """Gets each pass that has been flown, or its part up to a stop."""
+        """Called with each flown pass, or its part up to a stop."""
         self._ordered: Fly | None = None
         self._running: _Running | None = None
 
     def note_order(self, order: object) -> None:
-        """Of every order: a flight has the target's path. Called from any thread."""
+        """Take the target's path from a flight; other orders are ignored. Called from any thread."""
         if isinstance(order, Fly):
             self._ordered = order
 
@@ -108,7 +108,7 @@ class Recorder:
         self._running.see(status)
 
     def end(self) -> None:
-        """What has been flown so far is all of it."""
+        """The pass ends here."""
         running, self._running = self._running, None
         if running is None:
             return

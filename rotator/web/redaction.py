@@ -1,7 +1,7 @@
-"""Takes secrets out of texts that leave the box: passwords, tokens, hashes, and what stands in addresses.
+"""Takes secrets out of texts that leave the box: passwords, tokens, hashes, and parts of addresses.
 
-Knows where the configuration can hold a secret, and what one looks like elsewhere. Rather takes out too much than too
-little. Does not know where the texts come from.
+Knows where the configuration can hold a secret, and the forms of secrets in other texts. In doubt it takes out too
+much. Does not know where the texts come from.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from pydantic.fields import FieldInfo
 
 REMOVED = "[removed]"
 SHORTEST = 4
-"""A shorter text stands in too many words to be taken out of them all."""
+"""Characters: a shorter secret is part of too many words to be taken out everywhere."""
 LONG_STEP = 12
-"""A step of an address's path that is so long may be somebody's key."""
+"""Characters: a part of an address's path this long may be a key."""
 _ADDRESS = re.compile(r"\b([a-zA-Z][a-zA-Z0-9+.-]*://)([^\s\"'<>\\`]+)")
 _NAMED = re.compile(
     r"(?i)\b([\w-]*(?:passw(?:or)?d|passwd|passphrase|secret|token|api[_-]?key|authorization|cookie)[\w-]*)"
@@ -32,7 +32,7 @@ _TOKEN = re.compile(r"(?<![\w-])[\w-]{43}(?![\w-])", re.ASCII)
 
 
 class Redaction:
-    """`secrets` are taken out wherever they stand; `names` are replaced by what stands for them."""
+    """`secrets` are taken out everywhere; `names` maps each name to its replacement."""
 
     def __init__(self, secrets: Iterable[str] = (), names: Mapping[str, str] | None = None) -> None:
         stand_for = {secret: REMOVED for each in secrets for secret in _spellings(each)}
@@ -77,13 +77,13 @@ def secrets_of(model: BaseModel) -> set[str]:
 
 
 def is_secret(field: FieldInfo) -> bool:
-    """Whether the model marks this key as one that no other person may read."""
+    """Whether the model marks this key as secret."""
     extra = field.json_schema_extra
     return isinstance(extra, dict) and extra.get("writeOnly") is True
 
 
 def spellings_of_place(latitude_deg: float, longitude_deg: float) -> set[str]:
-    """How a place of a few hundred metres is written, to three decimals: more of them follow, or none."""
+    """The spellings of a place to a few hundred metres, with three decimals; more decimals may follow in a text."""
     return {f"{math.trunc(abs(deg) * 1000) / 1000:.3f}" for deg in (latitude_deg, longitude_deg)}
 
 
@@ -100,7 +100,7 @@ def _texts(value: Any, *, secret: bool = False) -> Iterator[tuple[str, bool]]:
 
 
 def _parts(address: str) -> Iterator[str]:
-    """What of an address may be a secret: who asks, its query, and long steps of its path."""
+    """The parts of an address that may be secret: user and password, query, long parts of its path."""
     try:
         parts = urlsplit(address)
         yield from filter(None, (parts.username, parts.password))
@@ -118,7 +118,7 @@ def _spellings(secret: str) -> Iterator[str]:
 
 
 def _host_alone(found: re.Match[str]) -> str:
-    """Of an address its scheme and its host: the rest may hold a name, a password, a key."""
+    """Scheme and host of an address. The rest may hold a name, a password, a key."""
     scheme, rest = found[1], found[2]
     after = rest[len(rest.rstrip(".,:;)")) :]
     host, slash, _ = rest.removesuffix(after).rpartition("@")[2].partition("/")

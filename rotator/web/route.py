@@ -1,7 +1,7 @@
-"""One route of the API: its path, who serves it, how long its body may be, and its description as OpenAPI 3.1.
+"""One route of the API: its path, its handler, the limit of its body, and its description as OpenAPI 3.1.
 
-Each group of routes stands in a file of its own, and describes itself with the words here and in `schema`. Does not
-know any single route.
+Each group of routes has a file of its own, and describes itself with the functions here and in `schema`. Does not know
+any single route.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 PAIRED: Schema = {"security": [{"token": []}, {"browser": []}]}
 READING: Schema = {"security": [{}, {"token": []}, {"browser": []}]}
-"""Everyone may, unless the file says `[page] reading = "paired"`."""
+"""All may read, unless the configuration has `[page] reading = "paired"`."""
 FREE: Schema = {"security": []}
 OK: Schema = object_of({"ok": {"const": True}})
 
@@ -33,7 +33,7 @@ REFUSALS: Mapping[int, str] = {
     413: "the body is too long",
     422: "the file that was sent has a mistake",
 }
-"""Every answer with such a number is an `error`."""
+"""An answer with one of these status codes has an `error`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,14 +56,14 @@ def get(
     query: Schema | None = None,
     more: Schema | None = None,
 ) -> Route:
-    """A question. `answer`: what it is, and its schema. `query`: values of the address. `more`: further answers."""
+    """A query. `answer`: its meaning and its schema. `query`: values in the address. `more`: further answers."""
     answers = {"200": answered(*answer), **(more or {})}
     summary, _ = answer
     return Route("GET", path, serve, _described(summary, access, answers, query))
 
 
 def live(path: str, serve: Handler, answer: tuple[str, str], *, access: Schema, query: Schema, more: Schema) -> Route:
-    """A WebSocket. OpenAPI has no words for its messages: `answer` says them to a person, after its summary."""
+    """A WebSocket. OpenAPI cannot describe its messages: after its summary `answer` describes them in words."""
     summary, messages = answer
     answers = {"101": {"description": "the WebSocket is open"}, **refusals(400), **more}
     return Route("GET", path, serve, {**_described(summary, access, answers, query), "description": messages})
@@ -82,7 +82,7 @@ def post(
     headers: Schema | None = None,
     more: Schema | None = None,
 ) -> Route:
-    """A request that does something. `body`, `answer`: their schemas. `query` and `more` as of `get`."""
+    """A request that changes something. `body`, `answer`: their schemas. `query` and `more`: as in `get`."""
     answers = {"200": answered("done", answer), **refusals(400, 409, 413), **(more or {})}
     described = _described(summary, access, answers, query, headers)
     if body is not None:
@@ -124,6 +124,6 @@ COMPUTING: Schema = {
     "202": answered("it is computed: ask again", object_of({"computing": {"const": True}})),
     **refusals(409),
 }
-"""The further answers of what takes a while."""
+"""Further answers of a slow request."""
 REFUSED: Schema = {str(number): answered(why, component("error")) for number, why in REFUSALS.items()}
-"""Each of them once, for all routes."""
+"""Common answers, written once for all routes."""

@@ -1,4 +1,4 @@
-"""What the page shows: the box as it stands, in one object for the browser, and what has been a while ago.
+"""The content of the page: the present state of the box in one object for the browser, and the last minutes.
 
 Knows a status, and makes plain values of it. Words come from `rotator.views`, so that page, terminal and display say
 the same. Knows no HTTP and no browser.
@@ -26,7 +26,7 @@ from rotator.views import words
 from rotator.views.sky_plot import Way, aimed_at, off_deg, pointing
 
 KEPT_S, EVERY_S = 600, 1.0
-"""The strip chart and the trail go back so far, with a point so often."""
+"""Seconds that the strip chart and the trail go back, and seconds between two points."""
 LAST_BYTES = 24
 MOST_POINTS = 180
 ZENITH_DEG, TURN_DEG = 90.0, 360.0
@@ -37,7 +37,7 @@ _LAMPS = {Axis.AZIMUTH: ("cw", "ccw"), Axis.ELEVATION: ("up", "down")}
 
 @dataclass(frozen=True, slots=True)
 class Station:
-    """What does not change while the box runs. `tolerances_deg`: of azimuth and elevation."""
+    """Facts that do not change while the box runs. `tolerances_deg`: of azimuth and elevation."""
 
     mount: Mount
     beam_deg: float
@@ -47,7 +47,7 @@ class Station:
 
 
 def box(station: Station, status: Status) -> dict[str, Any]:
-    """The range, the horizon, the sectors: what the browser asks for once."""
+    """The range, the horizon, the sectors: for the browser's one request."""
     mount = station.mount
     return {
         "version": __version__,
@@ -78,7 +78,7 @@ class _Path:
 
 
 class Scene:
-    """`status`: the latest. `lcd`: the rows of the display, a code covered.
+    """`status` gives the latest status. `lcd` gives the rows of the display, with a code covered.
 
     `named`: the name of a paired browser by its number. `tracks`: as `Tracker.state`.
     `utc`: seconds since 1970 by the box's clock.
@@ -106,10 +106,10 @@ class Scene:
         """Orders come from several threads, some at the same moment."""
         self._flights = 0
         self.stops = 0
-        """How often a person has stopped it since the start of the program."""
+        """The number of stops by a person since the start of the program."""
 
     def note_order(self, order: object) -> None:
-        """Of every order: a flight has the path of the pass. Called from any thread."""
+        """Count stops, and take the path of the pass from a flight. Called from any thread."""
         if isinstance(order, Stop) and order.latch:
             with self._counting:
                 self.stops += 1
@@ -121,7 +121,7 @@ class Scene:
                 self._path = _Path(f"{self._flights} {order.name}", order.name, points)
 
     def note(self) -> None:
-        """One more point of the past."""
+        """Add a point to the past."""
         status = self._status()
         row = [status.at_s]
         for axis, aim_deg in zip((status.azimuth, status.elevation), _aims(status), strict=True):
@@ -129,7 +129,7 @@ class Scene:
         self._past.append((*row, _number(off_deg(status))))
 
     def past(self) -> dict[str, Any]:
-        """Rows of seconds ago, azimuth, its target, elevation, its target, error; null where there was none."""
+        """Rows: seconds ago, azimuth, its target, elevation, its target, error; null: no value."""
         now_s = self._status().at_s
         return {
             "every_s": EVERY_S,
@@ -137,11 +137,11 @@ class Scene:
         }
 
     def path(self) -> dict[str, Any]:
-        """The pass that is flown, or that the antenna waits for: its directions. `key`: no other flight has it."""
+        """The directions of the pass that is flown, or that the antenna waits for. `key`: unique for each flight."""
         return asdict(self._path)
 
     def now(self) -> dict[str, Any]:
-        """All that may change from one moment to the next."""
+        """All values that may change at any time."""
         status = self._status()
         told = self._told(status)
         headline, style = words.headline(told)
@@ -188,7 +188,7 @@ class Scene:
         )
 
     def _who(self, name: str, moves: Status | None = None) -> str:
-        """One sender, with the name of a person's browser. `moves`: the status, where it is who moves the antenna."""
+        """One sender, with the name of a person's browser. `moves`: the status, if the sender moves the antenna."""
         said = self.said(name)
         return said if said != name else sender(name, moves.controlled_from if moves else "")
 
@@ -208,7 +208,7 @@ def _target(axis: AxisStatus) -> float | None:
 
 
 def _aims(status: Status) -> tuple[float | None, float | None]:
-    """Where each axis should point, on its own scale: in a planned pass the satellite, on the turn of the antenna."""
+    """The wanted angle of each axis, on its own scale: in a planned pass the satellite's, on the antenna's turn."""
     azimuth, elevation = status.azimuth, status.elevation
     there = aimed_at(status) if status.flown else None
     if there is None or azimuth.points_deg is None or elevation.points_deg is None:
@@ -225,7 +225,7 @@ def _starts(status: Status) -> int | None:
 
 
 def _lamps(axis: Axis, status: AxisStatus) -> dict[str, str]:
-    """Of the relays of an axis: `on`, `off`, or `doubted` where it may be closed although it was switched off."""
+    """The relays of an axis: `on`, `off`, or `doubted`: switched off, but perhaps still closed."""
     plus, minus = _LAMPS[axis]
     lamps = {plus: "off", minus: "off"}
     for name, direction, trust in (
@@ -252,7 +252,7 @@ def _link(wire: Wire) -> dict[str, Any]:
 
 
 def _readable(data: bytes) -> str:
-    """The last line that a program sent; other bytes than text as dots."""
+    """The last line that a program sent; bytes that are no text are dots."""
     lines = [line for line in re.split(rb"[\r\n]+", data) if line]
     last = lines[-1][-LAST_BYTES:] if lines else b""
     return "".join(chr(byte) if 32 <= byte < 127 else "·" for byte in last)

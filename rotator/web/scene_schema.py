@@ -1,6 +1,6 @@
-"""What `scene` makes, described for programs: the box, its last minutes, the path of a pass, and the live picture.
+"""Describes the values of `scene` for programs: the box, its last minutes, the path of a pass, and the live picture.
 
-Knows JSON schemas. Does not know how the values come about.
+Knows JSON schemas. Does not know how the values are made.
 """
 
 from __future__ import annotations
@@ -99,4 +99,4 @@ PICTURE: Schema = object_of(
         "links": list_of(_LINK),
     }
 )
-"""All that may change from one moment to the next."""
+"""All values that may change at any time."""

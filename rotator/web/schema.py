@@ -1,4 +1,4 @@
-"""The words with which each group of routes describes its values: JSON Schema, as OpenAPI 3.1 has it.
+"""The functions with which each group of routes describes its values: JSON Schema, as in OpenAPI 3.1.
 
 Knows schemas. Does not know any single value, nor how a request is served.
 """
@@ -17,11 +17,11 @@ ANY: Schema = {}
 ZIP: Schema = {"contentMediaType": "application/zip"}
 SVG: Schema = {"contentMediaType": "image/svg+xml"}
 ELEMENTS: Schema = {"contentMediaType": "text/plain"}
-"""Files, and no JSON."""
+"""Files, not JSON."""
 
 
 def the(meaning: str, schema: Schema) -> Schema:
-    """The same schema, with what it means here."""
+    """The same schema, with its meaning here."""
     return {**schema, "description": meaning}
 
 
@@ -59,5 +59,5 @@ def table_of(schema: Schema) -> Schema:
 
 
 def body_of(needed: Schema, optional: Schema | None = None, *, example: Schema) -> Schema:
-    """What a program sends. It has no other values."""
+    """The body that a program sends. Other values are not allowed."""
     return {**object_of(needed, optional), "additionalProperties": False, "examples": [example]}

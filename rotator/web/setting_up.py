@@ -1,7 +1,7 @@
-"""Setting up on the page: the questions, what is wired where, the programs' own settings, and a calibration.
+"""Setting up on the page: the questions, the wiring, the settings of tracking programs, and a calibration.
 
-Knows the requests. The questions are in `rotator.setup`, the calibration's guide in `rotator.calibrating`. Writes
-nothing: `settings` does.
+Knows the requests. The questions are in `rotator.setup`, the calibration's guide in `rotator.calibrating`. Does not
+write: `settings` does.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ _GUIDE = object_of(
 )
 _KEYS = re.compile(r"[-+0-9.,ynfbqrludRLUDs? \r]{1,16}")
 _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
-"""A link of a page in the documentation: the box has its words alone."""
+"""A link in a page of the documentation. Only its text is shown, because the box has no such page."""
 
 
 class SettingUpApi:
-    """`calibration`: the one that runs now; None: the box runs as ever."""
+    """`calibration`: the running calibration; None: a normal run."""
 
     def __init__(self, entrance: Entrance, file: BoxFile, calibration: PageCalibration | None) -> None:
         self._entrance = entrance

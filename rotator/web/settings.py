@@ -1,7 +1,6 @@
-"""The settings on the page: what the file says, a change before it is written, and the new start that follows.
+"""The settings on the page: the present file, a change before it is written, and the new start after it.
 
-Knows the requests and their values. `box_file` changes the file and has the box start anew. Does not know which keys
-there are.
+Knows the requests and their values. `box_file` changes the file and starts the box again. Does not know the keys.
 """
 
 from __future__ import annotations
@@ -43,7 +42,7 @@ from rotator.web.schema import (
 log = logging.getLogger(__name__)
 
 ANSWERS_S = 2.0
-"""A browser asks again after this time for what is still computed."""
+"""Seconds after which a browser asks again for an answer in work."""
 MOST_BODY = 65_536
 _FORM = 'send {"digest": "…", "changes": [{"place": ["azimuth", "max_deg"], "value": 450}]}'
 _DIGEST = the("of the text that the change starts from, as /api/settings has it", TEXT)
@@ -137,7 +136,7 @@ class SettingsApi:
 
     async def _forms(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
-        # Seconds of a small Pi.
+        # Takes seconds on a small Pi.
         self._form = self._form or asyncio.create_task(asyncio.to_thread(form.tables), name="page: form")
         await asyncio.wait([self._form], timeout=ANSWERS_S)
         return computed({"tables": self._form.result()} if self._form.done() else None)
@@ -164,7 +163,7 @@ class SettingsApi:
         return web.json_response(self._file.begin_anew())
 
     async def _proposal(self, request: web.Request) -> tuple[Proposal, bool]:
-        """The change that is asked for, and whether it may stop the antenna."""
+        """The requested change, and whether it may stop the antenna."""
         match await values_of(request, MOST_BODY):
             case {"digest": str() as begun, "changes": [*sent], **more}:
                 make = partial(edited, changes=_changes(sent))
@@ -186,7 +185,7 @@ def texts_of(answers: dict[str, object]) -> dict[str, str]:
 
 
 def _opened(text: str, allow: str) -> str:
-    """The text with rotctld open to a network. Raises WrongValuesError, SetupError."""
+    """The text of the file with rotctld open to a network. Raises WrongValuesError, SetupError."""
     try:
         return open_to(text, network(allow)).text
     except ValueError as reason:

@@ -1,7 +1,7 @@
-"""The thread of the page: an event loop of its own, so that no browser holds up a link, a stop or the control.
+"""The thread of the page: an event loop of its own, so that no browser delays a link, a stop or the control.
 
-Knows the socket on which the page listens, and how its parts start and end. A port that is taken is said, and the box
-runs on without a page.
+Knows the socket on which the page listens, and how its parts start and end. If the port is taken, it says so and the
+box runs without a page.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ JOIN_S = 2.0
 UNSENT_BYTES = 16_384
 KEEP_S = 5.0
 WAITING = 128
-"""Connections that the kernel keeps until they are taken."""
+"""Connections that the kernel keeps until the page takes them."""
 AT_ONCE = 16
-"""New connections at a time: so few that in a flood each is read before others need its place."""
+"""New connections taken at a time. Few, so that in a flood each is read before others need its place."""
 
 
 class Kept(Protocol):
-    """What collects lines for the page, from its start to its end."""
+    """Collects lines for the page, from its start to its end."""
 
     def keep(self) -> None: ...
 
@@ -45,7 +45,7 @@ class Kept(Protocol):
 
 
 class PageThread:
-    """`behind` is called in the thread: what it needs takes a while to load. `clock` gives seconds."""
+    """`behind` is called in the thread, because its modules are slow to load. `clock` gives seconds."""
 
     def __init__(
         self,
@@ -57,7 +57,7 @@ class PageThread:
         *,
         events: EventWatch,
     ) -> None:
-        """`events`: by it the control thread sees whether this thread's event loop runs."""
+        """`events` shows the control thread whether this thread's event loop runs."""
         self._host, self._port = host, port
         self._behind = behind
         self._clock = clock
@@ -81,7 +81,7 @@ class PageThread:
                 backlog=WAITING,
                 dualstack_ipv6=ipv6 and self._host == "::" and socket.has_dualstack_ipv6(),
             )
-            # A slow browser shall not find a queue of old pictures.
+            # A slow browser must not get a queue of old pictures.
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, UNSENT_BYTES)
         except (OSError, UnicodeError) as fault:
             self.wire.state = "closed"
@@ -97,7 +97,7 @@ class PageThread:
         self._stopping.set()
         loop, stop = self._loop, self._stop
         if loop is not None and stop is not None:
-            with suppress(RuntimeError):  # the page has just ended by itself
+            with suppress(RuntimeError):  # the page just ended by itself
                 loop.call_soon_threadsafe(stop.set)
         if self._thread.is_alive():
             self._thread.join(JOIN_S)
@@ -114,13 +114,13 @@ class PageThread:
             log.exception("page: it has failed; the box runs on without it")
             self.wire.state = "closed"
             if self._socket is not None:
-                # Else a browser would wait for an answer that never comes.
+                # Otherwise a browser would wait for an answer that never comes.
                 self._socket.close()
 
     async def _serve(self) -> None:
         assert self._socket is not None, "start() comes first"
         self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
-        # Some hundred modules: loaded here, they hold up no start of the box.
+        # Some hundred modules. Loaded here, they do not delay the start of the box.
         from aiohttp import http_exceptions, web  # noqa: PLC0415
 
         from rotator.web.api import Api  # noqa: PLC0415
@@ -144,7 +144,7 @@ class PageThread:
         listening = await self._loop.create_server(
             lambda: Connection(connections, server()), sock=self._socket, backlog=AT_ONCE
         )
-        # The event loop has set the queue to as few as it takes at once.
+        # The event loop has made the queue as short as the number it takes at once.
         self._socket.listen(WAITING)
         works = [
             connections.watch(),
@@ -160,7 +160,7 @@ class PageThread:
                 tasks.append(asked)
                 ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
                 for task in ended:
-                    # Without its pictures, or its watch over connections, it is no page.
+                    # Without pictures, or without the watch over connections, the page must end.
                     task.result()
         finally:
             listening.close()
@@ -175,7 +175,7 @@ class PageThread:
 
 
 async def _keep(pairings: Pairings) -> None:
-    """Write down who was there, until cancelled. In a thread of its own: a stop does not wait for the disk."""
+    """Write the latest visits, until cancelled. In a thread of its own, so that a stop does not wait for the disk."""
     while True:
         await asyncio.sleep(KEEP_S)
         await asyncio.to_thread(pairings.keep)

@@ -1,7 +1,7 @@
 """The browsers that watch the bytes of the links.
 
-Knows the WebSocket. A browser that is slow misses lines and is told how many; one that takes none is dropped. Does not
-know how the lines come about.
+Knows the WebSocket. A slow browser misses lines and gets their number; a browser that takes no line is dropped. Does
+not know how the lines are made.
 """
 
 from __future__ import annotations
@@ -12,12 +12,13 @@ from collections.abc import Callable
 
 from aiohttp import web
 
+from rotator.web.slow_reader import dropped_if_slow
 from rotator.web.wires import WireLog
 
 MOST_AT_ONCE = 200
 EVERY_S = 0.2
 TAKES_S = 15.0
-"""A browser that takes a message in no less than this is dropped."""
+"""Seconds: a browser that needs longer to take a message is dropped."""
 MOST_WATCHERS = 8
 MESSAGES = """The box sends, as soon as there are new lines:
 
@@ -30,7 +31,7 @@ nothing: the box closes then.
 
 
 class WireWatch:
-    """The browsers that watch. `may_look` is asked at each message: a browser may be paired no more."""
+    """The browsers that watch. `may_look` is called before each message, because a pairing may have ended."""
 
     def __init__(self, wires: WireLog) -> None:
         self._wires = wires
@@ -41,33 +42,29 @@ class WireWatch:
         return self._watchers >= MOST_WATCHERS
 
     async def serve(self, socket: web.WebSocketResponse, upto: int | None, may_look: Callable[[], bool]) -> None:
-        """Until the browser leaves, or may look no more. `upto`: it has seen the lines before this one; None: none."""
+        """Serve until the browser leaves or loses its right to look. `upto`: number of its next line; None: all."""
         self._watchers += 1
         sender = asyncio.create_task(self._send(socket, upto, may_look), name="page: wires")
         try:
             async for _ in socket:
-                return  # it has nothing to say
+                return  # the page never sends a message here
         finally:
             sender.cancel()
             await asyncio.gather(sender, return_exceptions=True)
             self._watchers -= 1
 
     async def _send(self, socket: web.WebSocketResponse, upto: int | None, may_look: Callable[[], bool]) -> None:
-        try:
+        with dropped_if_slow(socket):
             while not socket.closed:
                 if not may_look():
                     await socket.close()
                     return
                 new = self._wires.after(upto or 0, MOST_AT_ONCE)
                 if new.lines or upto is None:
-                    # What was there before it came, it has not missed.
+                    # Lines from before its connection do not count as missed.
                     missed = 0 if upto is None else new.missed
                     async with asyncio.timeout(TAKES_S):
                         await socket.send_str(json.dumps({"lines": new.lines, "upto": new.upto, "missed": missed}))
                     upto = new.upto
                 if len(new.lines) < MOST_AT_ONCE:
                     await asyncio.sleep(EVERY_S)
-        except (TimeoutError, ConnectionError, RuntimeError):
-            # It takes nothing, or has gone. Its reader ends with the transport.
-            if (transport := socket.get_extra_info("transport")) is not None:
-                transport.abort()

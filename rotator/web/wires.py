@@ -1,7 +1,7 @@
 """The latest bytes of all links for the page, in the lines of `rotator monitor`.
 
-Knows numbered lines. The bytes of a link cost one entry of a bounded list, and wait for no reader: one that is too slow
-misses lines, and is told how many. Does not know who reads.
+Knows numbered lines. The bytes of a link take one entry of a bounded list, and never wait for a reader. A slow reader
+misses lines, and gets their number. Does not know the readers.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ MOST_LINES, LONGEST_LINE = 1000, 600
 
 @dataclass(frozen=True, slots=True)
 class Lines:
-    """`upto`: the number of the line after these. `missed`: so many before them are kept no more."""
+    """`upto`: number of the next line. `missed`: how many lines before these are lost."""
 
     lines: Sequence[str]
     upto: int
@@ -49,11 +49,11 @@ class WireLog:
         self._next += 1
 
     def recording(self) -> list[str]:
-        """All lines that are kept, as `rotator monitor` would have written them."""
+        """All kept lines, in the form of `rotator monitor`."""
         return [*self.greeting, *(line for _, line in list(self._lines))]
 
     def after(self, number: int, most: int = MOST_LINES) -> Lines:
-        """The lines from this number on, the oldest first. A number that is not given yet is another run's: all."""
+        """The lines from this number on, the oldest first. All lines if the number is too high: from an earlier run."""
         if number > self._next:
             number = 0
         if number >= self._next:
