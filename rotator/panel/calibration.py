@@ -51,6 +51,6 @@ class PanelCalibration:
         return found, tuple(notes)
 
     def step(self) -> Home | None:
-        """The mode switch has been stepped. Returns the next axis to home; None: the calibration is done."""
+        """The operator has turned the mode switch. Returns the next axis to home; None: the calibration is done."""
         self.stage = _NEXT.get(self.stage, Stage.DONE)
         return None if self.stage is Stage.DONE else Home(Axis(self.stage.value))

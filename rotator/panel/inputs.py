@@ -15,30 +15,31 @@ from rotator.orders import Mode
 from rotator.panel.ladder import CENTRE, Throw, thrown
 
 CLOSED_S = 0.05
-"""A stop button counts as released after its contact was closed for this long. An open contact counts at once."""
+"""Seconds for which a stop button's contact must be closed to count as released. An open contact counts at once."""
 STILL_S = 1.0
-"""A mode switch or a knob counts after it has stood this long: on its way it passes through other positions."""
+"""Seconds at rest before a mode switch or a knob counts: on its way it passes through other positions."""
 COUNT = 1.0 / 255.0
-"""One count of an eight-bit reading: a knob that changes by no more than this stands still."""
+"""One count of an eight-bit reading. A knob that changes by at most this stands still."""
 SPARK_READINGS = 5
-"""The median of so many readings is where the knob is: two wrong ones among them, as of a spark, change nothing."""
+"""Readings in the median that gives the knob's place. Two wrong ones among them, for example from a spark, do not
+change it."""
 LAG_S = 0.1
-"""A turn shows in the median so much later."""
+"""Seconds until a turn shows in the median."""
 LEAST_READINGS = 10
-"""A knob that was read less often in STILL_S is not known to stand."""
+"""Least number of readings in STILL_S to know that a knob stands."""
 NOISES = 1.8
-"""And neither does it turn by so many times what its readings scatter."""
+"""Times the scatter of its readings: by less than this a knob does not turn."""
 USUAL = 0.6
-"""The scatter is the largest of this share of the bends, the smallest: the others may be sparks. A bend is how far a
-reading is off the line through its neighbours: a steady turn has none."""
+"""A bend is the distance of a reading from the line through its neighbours; a steady turn has none. The scatter is the
+largest bend of this share, the smallest bends. The others may be sparks."""
 SPREADS = 1.5
-"""It rests elsewhere only by so many times the spread that its readings had at rest."""
+"""Times the spread of its readings at rest: only beyond this a knob rests at another place."""
 DRIFT = 1e-5
-"""Where it rests drifts by so much from one reading to the next, as a wire warms: 1.2 % of its turn in a minute."""
+"""Allowed drift at rest from one reading to the next, as a wire warms: 1.2 % of the turn in a minute."""
 MIDDLE = 0.1
-"""The spread is that of the readings without this share of the lowest and of the highest."""
+"""Share of the lowest and of the highest readings that the spread leaves out."""
 SPREAD_KEPT = 0.99
-"""A spread that was seen is forgotten by so much from one reading to the next: half of it in three seconds."""
+"""Factor of the kept spread from one reading to the next: half of it is forgotten in three seconds."""
 _ROUNDING = 1e-9
 
 POSITIONS = (Mode.MANUAL, Mode.PARK, Mode.AUTO, Mode.JOG)
@@ -53,11 +54,11 @@ class StopButton:
     def __init__(self) -> None:
         self.open = False
         self.closed_s = -math.inf
-        """When it was last released."""
+        """When the button was last released."""
         self._closing_s: float | None = None
 
     def see(self, now_s: float, *, is_open: bool) -> bool:
-        """Returns whether it has just been pressed."""
+        """Returns whether the button was just pressed."""
         if is_open:
             opened, self.open, self._closing_s = not self.open, True, None
             return opened
@@ -71,9 +72,9 @@ class StopButton:
 class ModeSwitch:
     def __init__(self) -> None:
         self.position: Mode | None = None
-        """The present position; None: the switch cannot be read, or is not fitted."""
+        """The present position; None: not readable, or not fitted."""
         self.since_s = math.inf
-        """Since when it has been in this position."""
+        """Since when the switch is in this position."""
         self.mode: Mode | None = None
         """The last position that it held for STILL_S."""
 
@@ -95,8 +96,8 @@ class ModeSwitch:
 class JogSwitches:
     """Two centre-off switches. A press begins when both were at the centre and two readings show one of them thrown.
 
-    It ends with the first other reading: released, the second switch thrown as well, or a reading in no band. Before
-    the next press both must be at the centre. So two switches at once, or one held for long, are never two presses.
+    The press ends with the first other reading: released, both switches thrown, or a reading in no band. Before the
+    next press both must be at the centre. So two switches at once, or one held for long, are never two presses.
     """
 
     def __init__(self) -> None:
@@ -105,7 +106,7 @@ class JogSwitches:
         self._before: Throw | None = None
 
     def see(self, share: float | None, *, may_begin: bool) -> bool:
-        """Returns whether a press has just begun. Without `may_begin` a held press ends, and does not begin again."""
+        """Returns whether a press has just begun. Without `may_begin` a held press ends and cannot begin again."""
         throw = None if share is None else thrown(share)
         repeated, self._before = throw == self._before, throw
         contact = _one(throw)
@@ -133,7 +134,7 @@ def _one(throw: Throw | None) -> Contact | None:
 
 @dataclass(frozen=True, slots=True)
 class KnobWiring:
-    """The readings of a knob, as shares of its supply. The defaults: without end resistors no wrong one is seen."""
+    """Limits of a knob's readings, as shares of its supply. Defaults: without end resistors no broken wire is seen."""
 
     lowest: float = -0.1
     """A reading below this means a broken wire, which the wiper's pull-down takes to 0."""
@@ -144,7 +145,7 @@ class KnobWiring:
 
 
 class Knob:
-    """A pot that the operator turns. A reading outside of its window is none: a wire is broken.
+    """A pot that the operator turns. A reading outside its window is not used: a wire is broken.
 
     If a pot reads less near its end although it is turned further, the time constant at its input is too large: fit a
     smaller capacitor at its wiper. Software cannot correct that.
@@ -155,23 +156,23 @@ class Knob:
         self.full_scale = 1.0 - wiring.zero if full_scale is None else full_scale
         """The reading at its maximum, as a share of its supply."""
         self.trouble = ""
-        """Why its reading is none; empty: it is in its window, or there is none at all."""
+        """Why the reading is not used; empty: it is in its window, or there is no reading."""
         self.share: float | None = None
-        """How far it is turned, 0 to 1; None: it cannot be read, or is not fitted."""
+        """How far the knob is turned, 0 to 1; None: not readable, or not fitted."""
         self.rest: float | None = None
-        """Where it rested last, as a share of its turn; None: it has not been seen at rest."""
+        """The last place of rest, as a share of the turn; None: not seen at rest yet."""
         self._latest: deque[tuple[float, float]] = deque()
-        """The readings of STILL_S, each with its moment."""
+        """The readings of the last STILL_S, each with its time."""
         self._turned_to = 0.0
-        """Where it was when it was last seen to turn, at `_turned_s`."""
+        """The place at the last seen turn, at `_turned_s`."""
         self._turned_s = math.inf
         self._turned = False
-        """Whether it was seen to turn since it rested last."""
+        """Whether it was seen to turn since the last rest."""
         self._spread = 0.0
-        """What its readings spread by at rest, lately."""
+        """The recent spread of its readings at rest."""
 
     def still(self, now_s: float) -> bool:
-        """Whether it has been read, and not been turned, for STILL_S."""
+        """Whether it was read, and not turned, for STILL_S."""
         return now_s - self._turned_s >= STILL_S - LAG_S - _ROUNDING and len(self._latest) >= LEAST_READINGS
 
     def see(self, now_s: float, reading: float | None) -> bool:
@@ -201,9 +202,8 @@ class Knob:
         return turns and self.rest is not None
 
     def _turned_unseen(self, shares: list[float], least: float) -> bool:
-        """Where it rests. What has only scattered, or sparked for long, is where it was: the place of its last rest
-        stays. What is elsewhere has been turned, also where it turned so slowly or with so many sparks that no reading
-        showed it."""
+        """Whether the knob rests at another place though no turn was seen: it turned very slowly, or with many sparks.
+        Readings that only scattered or sparked do not change the last place of rest."""
         self._spread = max(self._spread * SPREAD_KEPT, _spread(shares[:-SPARK_READINGS]))
         place = median(shares)
         off = 0.0 if self.rest is None else place - self.rest
@@ -223,7 +223,7 @@ class Knob:
 
 
 def _scatter(shares: list[float]) -> float:
-    """How far a reading usually is off the line through its neighbours, sparks left out."""
+    """The usual distance of a reading from the line through its neighbours, without sparks."""
     bends = sorted(
         abs(before - 2.0 * at + after) for before, at, after in zip(shares, shares[1:], shares[2:], strict=False)
     )
@@ -231,7 +231,7 @@ def _scatter(shares: list[float]) -> float:
 
 
 def _spread(shares: list[float]) -> float:
-    """How far apart the readings are, without the lowest and the highest."""
+    """The range of the readings, without the lowest and the highest."""
     without = math.ceil(MIDDLE * len(shares))
     middle = sorted(shares)[without : len(shares) - without]
     return middle[-1] - middle[0]

@@ -1,4 +1,4 @@
-"""The two jog switches on one input of a converter: which resistors, which readings, which bands.
+"""The two jog switches on one input of a converter: resistors, readings, bands.
 
 Knows the resistors and the shares of the supply that they make. Does not know the converter, nor what a jog does.
 

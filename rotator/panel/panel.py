@@ -1,10 +1,10 @@
 """A front panel's switches and knobs in, orders, lamps and meters out: the panel of the KO6TH controller.
 
-Knows what each part means in each mode. Pure: no I/O, no clock, no thread. Every part is optional: a part that is None
-in the inputs is not fitted, or cannot be read now, and gives no order.
+Knows the meaning of each part in each mode. Pure: no I/O, no clock, no thread. Each part is optional: a part that is
+None in the inputs is not fitted, or cannot be read now, and gives no order.
 
-A switch or a knob moves the antenna only if the operator moves it while it may have an effect. If it was held or turned
-before the mode was set, while the stop button was open or while a stop was latched, it must be released, or turned
+A switch or a knob moves the antenna only if the operator moves it while it may have an effect. If it was held or
+turned before the mode was set, with the stop button open or during a latched stop, it must be released or turned
 again.
 """
 
@@ -23,7 +23,7 @@ from rotator.status import AxisStatus, Status
 LEAST_INDEX, MOST_INDEX = -7, 8
 """The range of the index by which the jog switches shift an order."""
 DATA_LIT_S = 0.1
-"""How long the data lamp is lit after bytes from a program."""
+"""Seconds that the data lamp is lit after bytes from a program."""
 KNOB_OPEN = "a wire is broken, it moves nothing (rotator help knob-open-or-shorted)"
 LAMPS = ("manual", "park", "auto", "jog", "data", "motor", "stop", "azimuth_pulse", "elevation_pulse", "switch")
 
@@ -36,14 +36,14 @@ class PanelSettings:
     """The size of one index; for a rotor that counts pulses, the spacing of the pulses."""
     knobs: KnobWiring = field(default_factory=KnobWiring)
     test_s: float = 0.0
-    """At the start every lamp is lit and every meter shows full scale for so long."""
+    """Seconds at the start in which each lamp is lit and each meter shows full scale."""
     jog_s: float = 0.3
-    """How long a jog lasts unless it is renewed. Every step renews it while the switch is held."""
+    """Seconds that a jog lasts without renewal. Each step renews it while the switch is held."""
 
 
 @dataclass(frozen=True, slots=True)
 class PanelInputs:
-    """What the panel's parts read at one moment."""
+    """The readings of the panel's parts at one time."""
 
     mode_bits: tuple[bool, bool] | None = None
     """MSB and LSB; a closed contact is True."""
@@ -53,13 +53,13 @@ class PanelInputs:
     """The wiper's share of its supply."""
     elevation_knob: float | None = None
     calibrate: bool = False
-    """The calibrate switch is closed. It counts only in the first step."""
+    """Whether the calibrate switch is closed. It counts only in the first step."""
     stop_open: bool = False
-    """The stop button is pressed, its wire is broken, or it cannot be read."""
+    """Whether the stop button is pressed, its wire is broken, or it cannot be read."""
     pulses: frozenset[Axis] = frozenset()
     """The axes whose index contact is closed."""
     data: bool = False
-    """Bytes have come from a program since the last step."""
+    """Whether bytes have come from a program since the last step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +70,9 @@ class PanelOutput:
     lamps: Mapping[str, bool]
     meters: Mapping[Axis, float]
     full_scales: Mapping[Axis, float] | None = None
-    """What the knobs read at their maximum, to be saved; None: nothing new."""
+    """The new full scales of the knobs, to be saved; None: nothing new."""
     notes: tuple[str, ...] = ()
-    """For the log."""
+    """Notes for the log."""
 
 
 class Panel:
@@ -85,18 +85,18 @@ class Panel:
         self._jog = JogSwitches()
         self._knobs = {axis: Knob(settings.knobs, (full_scales or {}).get(axis)) for axis in Axis}
         self._remarked: set[Axis] = set()
-        """The knobs whose broken wire has been told."""
+        """The knobs whose broken wire was reported."""
         self._started_s: float | None = None
         self._calibration: PanelCalibration | None = None
         self._mode: Mode | None = None if settings.mode_switch else Mode.AUTO
-        """The mode that was set last."""
+        """The last mode that was set."""
         self._indices = dict.fromkeys(Axis, 0)
         self._turned: dict[Axis, float | None] = {}
-        """Where each knob rested that has been turned since, and whose angle has not been ordered yet."""
+        """For each turned knob whose angle is not ordered yet: the place where it rested before."""
         self._jogging: Contact | None = None
         self._jogged_s = 0.0
         self._nudged = False
-        """The held press has shifted the index."""
+        """Whether the held press has shifted the index."""
         self._data_until_s = 0.0
 
     def step(self, now_s: float, inputs: PanelInputs, status: Status) -> PanelOutput:
@@ -112,7 +112,7 @@ class Panel:
         if not self._button.open:
             orders = self._mode_orders(turned=turned)
         elif opened or not status.latched or _driven(status):
-            orders = [Stop(latch=True)]  # a stop released elsewhere is repeated while this button is open
+            orders = [Stop(latch=True)]  # while this button is open, a stop released elsewhere is ordered again
         at_rest = self._switch.still or not self._settings.mode_switch
         free = at_rest and not (orders or self._button.open or status.latched or self._calibration)
         orders = [
@@ -186,7 +186,7 @@ class Panel:
         return [*orders, Jog(axis, direction, self._settings.jog_s)]
 
     def _used_up(self, now_s: float, status: Status) -> bool:
-        """The press has lasted as long as an axis that is not set up allows."""
+        """Whether the press has lasted as long as an axis without calibration allows."""
         if self._jogging is None or not status.axis(self._jogging[0]).uncalibrated:
             return False
         return now_s - self._jogged_s >= UNCALIBRATED_JOG_S
@@ -200,8 +200,8 @@ class Panel:
     # --- the knobs
 
     def _knob_orders(self, now_s: float, turned: set[Axis], status: Status, *, free: bool) -> list[Order]:
-        """One order for the knobs that rest elsewhere than before, when all of them rest; the other axis keeps its
-        target. A knob turns its own axis alone, also where the antenna is over the top.
+        """One order for the knobs that rest at a new place, after all knobs rest. An axis without a new place keeps its
+        target. A knob turns only its own axis, also when the antenna is over the top.
         """
         if not free or self._mode is not Mode.MANUAL:
             self._turned = {}
@@ -222,7 +222,7 @@ class Panel:
         return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION), place=True)]
 
     def _remarks(self) -> list[Order]:
-        """A knob's broken wire, when it begins and when it ends."""
+        """Remarks about a knob's broken wire: one when it begins, one when it ends."""
         broken = {axis for axis, knob in self._knobs.items() if knob.trouble}
         told: list[Order] = [
             Remark(axis, f"the panel's {axis.value} knob {self._knobs[axis].trouble}: {KNOB_OPEN}", "KNOB OPEN")
@@ -233,7 +233,7 @@ class Panel:
         self._remarked = broken
         return told
 
-    # --- what it shows
+    # --- lamps and meters
 
     def _lamps(self, inputs: PanelInputs, status: Status) -> dict[str, bool]:
         # The lamp of a new position is lit at once; its mode is set a second later.
@@ -249,7 +249,7 @@ class Panel:
         }
 
     def _meters(self, status: Status) -> dict[Axis, float]:
-        """The knob while the operator sets it, else the angle of the axis."""
+        """What each meter shows: the knob while the operator sets it, otherwise the angle of the axis."""
         meters: dict[Axis, float] = {}
         for axis, knob in self._knobs.items():
             setting = self._calibration is not None and self._calibration.stage is Stage.KNOBS
@@ -267,7 +267,7 @@ def _angle_deg(axis: AxisStatus, share: float) -> float:
 
 
 def _share(axis: AxisStatus) -> float:
-    """The angle as a share of the range; 0 where it is not known."""
+    """The angle as a share of the range; 0: not known."""
     if axis.angle_deg is None:
         return 0.0
     return min(max((axis.angle_deg - axis.min_deg) / (axis.max_deg - axis.min_deg), 0.0), 1.0)

@@ -1,8 +1,8 @@
 """The panel's threads: read switches and knobs, pass on the panel's orders, light lamps and move meters.
 
-Knows when to read, and what is wired to which output. The panel decides what follows. The switches have a thread that
-uses no bus, so a bus that hangs does not disable the stop button. Knobs and outputs have a second thread. A stop button
-that cannot be read counts as pressed; a knob or a jog switch without a recent reading counts as not fitted.
+Knows when to read, and the wiring of the outputs. The panel decides. The switches have a thread that uses no bus, so a
+bus that hangs does not disable the stop button. Knobs and outputs have a second thread. A stop button that cannot be
+read counts as pressed; a knob or a jog switch without a recent reading counts as not fitted.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ PANEL_THREADS = ("panel", "panel-bus")
 """The names of the two threads: one for the switches, one for the chips on a bus."""
 PERIOD_S = 0.05
 STALE_S = 0.25
-"""An older reading does not count: a jog ends when the bus hangs."""
+"""Seconds: an older reading does not count, so that a jog ends when the bus hangs."""
 RETRY_S = 0.5
 CHECK_S = 1.0
-"""How often the output chip is checked for a reset."""
+"""Seconds between two checks of the output chip for a reset."""
 AGAIN_S = 10.0
-"""The pause after full scales that the disk has refused."""
+"""Seconds of pause after a failed write of the full scales."""
 KNOBS, LAMPS = "knobs and jog switches", "lamps and meters"
 STEPS = 255
-"""Steps of a meter. The needle shows no finer ones, and they would load the bus."""
+"""Steps of a meter. The needle shows no finer steps, and they would load the bus."""
 JOIN_S = 1.0
 
 
@@ -72,7 +72,7 @@ class PanelThread:
     """`post` takes an order. `keep` writes the knobs' full scales; False: that failed. `pulses` returns the axes whose
     index contact is closed.
 
-    `failed` hears of the bug that ended a thread: without its panel a box must not go on.
+    `failed` is called with the bug that ended a thread: a box must not run on without its panel.
     """
 
     def __init__(
@@ -96,13 +96,13 @@ class PanelThread:
         self._pulses = pulses
         self._failed = failed
         self._full_scales: Mapping[Axis, float] | None = None
-        """The latest new ones of the knobs. A disk may be slow, and the stop button must not wait for it."""
+        """The latest new full scales. A disk may be slow, and the stop button must not wait for it."""
         self._kept: Mapping[Axis, float] | None = None
-        """Those that are on the disk."""
+        """The full scales on the disk."""
         self._keep_again_s = -math.inf
         self._data = False
         self._readings: dict[str, tuple[float, float]] = {}
-        """The last reading of each sensor, and its moment."""
+        """The last reading of each sensor, and its time."""
         self._retry_s = {KNOBS: -math.inf, LAMPS: -math.inf}
         self._troubles: dict[str, str] = {}
         self._output: PanelOutput | None = None
@@ -124,8 +124,8 @@ class PanelThread:
             thread.start()
 
     def stop(self) -> None:
-        """End the threads, keep what is not kept yet, and switch lamps and meters off: their chip works on without the
-        program."""
+        """End the threads, save unsaved full scales, and switch lamps and meters off, because their chip runs without the
+        program too."""
         self._stopping.set()
         for thread in self._threads:
             if thread.is_alive():
@@ -135,7 +135,7 @@ class PanelThread:
             self.dark()
 
     def cycle(self, now_s: float) -> None:
-        """Read, step and show once: for simulated time, where one thread does all."""
+        """Read, step and show once: for simulated time, in one thread."""
         self.read(now_s)
         self.step(now_s)
         self.show(now_s)
@@ -234,7 +234,7 @@ class PanelThread:
         self._trouble(LAMPS, "")
 
     def save(self, now_s: float) -> None:
-        """Keep new full scales of the knobs; what the disk has refused is tried again."""
+        """Save new full scales of the knobs. A failed write is tried again."""
         full_scales = self._full_scales
         if full_scales is None or full_scales is self._kept or now_s < self._keep_again_s:
             return
@@ -244,7 +244,7 @@ class PanelThread:
             self._keep_again_s = now_s + AGAIN_S
 
     def dark(self) -> None:
-        """Switch every lamp and meter off. If the chip does not answer, they stay as they are."""
+        """Switch each lamp and meter off. If the chip does not answer, they stay as they are."""
         if self._parts.outputs is not None and (self._started or self._shown):
             with suppress(HardwareError):
                 for channel in (*self._parts.lamps.values(), *self._parts.meters.values()):

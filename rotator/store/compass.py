@@ -13,7 +13,7 @@ from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile
 
 FILE_NAME = "compass.json"
-"""Beside the state file: what the compass forgets without power."""
+"""The file beside the state file. The compass loses these corrections without power."""
 FORM = Form("rotator compass")
 OFFSETS_COUNT = 22
 """Bytes, as the BNO055's registers hold them."""

@@ -4,7 +4,8 @@ Knows the file's form, and when an angle is written. The file marks an axis as m
 power cut during a move the mark remains, and the axis is lost. Does not know how pulses are counted.
 
 Memory cards wear. A move costs one write before it and one after it. While a satellite is tracked, with a step every
-few seconds, the mark stays in the file: a rest is written after 2 s if the last one is a minute old, else after 20 s.
+few seconds, the mark stays in the file: a rest is written after 2 s if the last write is a minute old, otherwise after
+20 s.
 So tracking costs two writes a minute for each axis, and the busiest series of orders six. With 30 kB a write (the file
 system included), eight hours of tracking a day on two axes write 60 MB a day or 21 GB a year. A 16 GB card can take a
 thousand times its size.
@@ -28,16 +29,15 @@ FILE_NAME = "counts.json"
 """Beside the state file."""
 FORM = Form("rotator counts")
 REST_S = 2.0
-"""An angle is written this long after the axis stopped, if the last write is older than REST_EVERY_S; else after
-LONG_REST_S."""
+"""Seconds of rest before an angle is written, if the last write is older than REST_EVERY_S; otherwise LONG_REST_S."""
 WIDEST_DEG = 1000.0
-"""No rotor turns further. Its own range, which is narrower, is checked where the count is taken over."""
+"""Degrees: no rotor turns further. The rotor's own, narrower range is checked when the count is used."""
 LONG_REST_S = 20.0
 REST_EVERY_S = 60.0
 
 
 class Standing(Enum):
-    """What the file says about an axis. A KNOWN axis can be aimed; any other takes only jog orders until homed."""
+    """The state of an axis in the file. A KNOWN axis can be aimed; any other takes only jog orders until homed."""
 
     KNOWN = "known"
     MOVING = "moving"
@@ -55,7 +55,7 @@ class Place:
 
 
 CamSettings = Mapping[str, object]
-"""What the configuration says about an axis's contact. A count made with other settings is not valid."""
+"""The settings of an axis's contact in the configuration. A count made with other settings is not valid."""
 
 NEVER, LOST, MOVING = Place(Standing.NEVER), Place(Standing.LOST), Place(Standing.MOVING)
 
@@ -102,9 +102,9 @@ class CountsFile:
         self._cams = cams
         self._written: dict[Axis, Place] = dict.fromkeys(cams, NEVER)
         self._stood: dict[Axis, tuple[float, float]] = {}
-        """For an axis that stands: the moment since when, and its angle."""
+        """For an axis at rest: since when, and its angle."""
         self._doubted: set[Axis] = set()
-        """The axes whose count may be wrong. The file may not say so yet: a card may have refused it."""
+        """The axes whose count may be wrong. The file may not show it yet: a card may have refused the write."""
         self._rested_s = dict.fromkeys(cams, -math.inf)
 
     @property
@@ -128,14 +128,14 @@ class CountsFile:
         return self._written[axis].standing is not Standing.KNOWN or self._write(axis, MOVING)
 
     def lose(self, axis: Axis) -> None:
-        """The count can no longer be trusted. A write that failed is tried again by the next call, and by `close`."""
+        """The count can no longer be trusted. After a failed write the next call, or `close`, tries again."""
         self._stood.pop(axis, None)
         self._doubted.add(axis)
         if self._written[axis].standing is not Standing.LOST:
             self._write(axis, LOST)
 
     def home(self, axis: Axis, angle_deg: float) -> None:
-        """The axis has been homed and stands at this angle. Where it stood before was on another count."""
+        """The axis has been homed and stands at this angle. Angles before belong to another count."""
         self._stood.pop(axis, None)
         self._doubted.discard(axis)
         if not self._write(axis, Place(Standing.KNOWN, angle_deg)):
@@ -151,7 +151,7 @@ class CountsFile:
             self._rested_s[axis] = now_s
 
     def close(self) -> None:
-        """The box ends: write the angle of every axis that stands, and each doubt that a card has refused."""
+        """The box ends: write the angle of each axis at rest, and each doubt that a card has refused."""
         for axis in self._doubted:
             self.lose(axis)
         for axis, (_, angle_deg) in self._stood.items():

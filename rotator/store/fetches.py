@@ -1,4 +1,4 @@
-"""The file that says when elements were last fetched from where, and with what result.
+"""The file with the last fetch of elements from each address: its time and its result.
 
 Knows the file's form. Does not know how often a server may be asked.
 """
@@ -24,50 +24,50 @@ FOLDER = "fetched"
 """The folder beside this file with the elements themselves."""
 MOST = 1_000_000_000
 LONGEST_TEXT = 200
-"""What a server says is cut, so that the file stays far below the size at which it counts as damaged."""
+"""Characters kept of a server's text, so that the file stays far below the size at which it counts as damaged."""
 LATEST_S = 4_102_444_800.0
 """The year 2100."""
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """An address, and how it went when it was asked last. Moments are UTC, in seconds since 1970."""
+    """An address and the result of its last request. Times are UTC, in seconds since 1970."""
 
     address: str
     asked_utc_s: float
     wait_s: float
-    """It is asked again after this time at the earliest."""
+    """Earliest time of the next request."""
     trouble: str = ""
-    """Why nothing new has come; empty: all is well."""
+    """Why no new elements came; empty: no error."""
     whole_host: bool = False
-    """The wait is for every address of this server."""
+    """Whether the wait holds for each address of this server."""
     good_utc_s: float | None = None
-    """When its elements were good, and the newest there are."""
+    """When its elements were last good and the newest available."""
     sets: int = 0
-    """So many elements it had then."""
+    """The number of its elements at that time."""
     shrunk: int = 0
-    """So many the latest answer had, which was not taken because they were too few; 0: it was taken."""
+    """The number of elements of the latest answer if it was refused as too few; 0: it was taken."""
     etag: str = ""
     modified: str = ""
 
     def __post_init__(self) -> None:
-        """Of a server's texts what may go to a terminal, and not too much of it."""
+        """Cut a server's texts, and remove characters that must not go to a terminal."""
         for name in ("trouble", "etag", "modified"):
             shown = "".join(filter(str.isprintable, getattr(self, name)))
             object.__setattr__(self, name, shown[:LONGEST_TEXT])
 
     def not_after(self, now_utc_s: float) -> Asked:
-        """With no moment of the future: the clock was wrong then."""
+        """The same without times in the future, which come from a wrong clock."""
         good_utc_s = None if self.good_utc_s is None else min(self.good_utc_s, now_utc_s)
         return replace(self, asked_utc_s=min(self.asked_utc_s, now_utc_s), good_utc_s=good_utc_s)
 
 
 Fetches = Mapping[str, Asked]
-"""By address."""
+"""The fetches by address."""
 
 
 def file_of(address: str, folder: Path) -> Path:
-    """Where the elements of this address are kept."""
+    """The file with the elements of this address."""
     return folder / f"{urlsplit(address).hostname}-{hashlib.sha256(address.encode()).hexdigest()[:8]}.txt"
 
 
@@ -79,10 +79,10 @@ class FetchesFile:
 
     @contextmanager
     def alone(self) -> Iterator[None]:
-        """Two boxes may have one folder: what is loaded and saved within belongs together. For a moment only."""
+        """Makes one load and one save a single step, because two boxes may share a folder. Hold it only briefly."""
         try:
             folder = os.open(self._file.path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        except OSError:  # there is none yet, or it cannot be read; `save` tells
+        except OSError:  # no folder yet, or not readable: `save` reports that
             yield
             return
         try:
@@ -107,7 +107,7 @@ def _fetches(content: dict[str, Any]) -> Fetches | None:
 
 
 def _asked(row: Mapping[str, Any]) -> Asked:
-    """Raises ValueError, KeyError, TypeError for what is no such row."""
+    """One row of the file. Raises ValueError, KeyError, TypeError for a wrong row."""
     good_utc_s = row["good_utc_s"]
     return Asked(
         address=str(row["address"]),

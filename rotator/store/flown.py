@@ -1,6 +1,6 @@
-"""The last passes that the box has flown: a picture of each, and a list that tells them apart.
+"""The last passes that the box has flown: a picture of each, and a list of their facts.
 
-Knows files, names and how many are kept: the oldest goes when one more comes. Does not know what a picture shows.
+Knows files, names and the number that is kept: a new pass removes the oldest. Does not know the content of a picture.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _LATEST_S = 4_102_444_800.0
 
 @dataclass(frozen=True, slots=True)
 class FlownPass:
-    """`relay_starts`: None where there are no relays. Moments are UTC, in seconds since 1970."""
+    """`relay_starts` None: there are no relays. Times are UTC, in seconds since 1970."""
 
     file: str
     name: str
@@ -44,7 +44,7 @@ class FlownPass:
 
 
 def picture_name(name: str, begin_utc_s: float) -> str:
-    """The name of the file: the moment of UTC, and of the target what a file may be called."""
+    """The name of the file: the time in UTC, and the target's name in characters that are allowed in a file name."""
     plain = re.sub(r"[^a-z0-9]+", "-", name.casefold().encode("ascii", "ignore").decode()).strip("-")
     return f"{datetime.fromtimestamp(begin_utc_s, UTC):%Y%m%d-%H%M%S}-{plain[:LONGEST_NAME].strip('-') or 'pass'}.svg"
 
@@ -79,7 +79,7 @@ class FlownPasses:
         self._clear({each.file for each in kept})
 
     def picture(self, file: str) -> str | None:
-        """None: there is none of that name any more."""
+        """The picture. None: no picture of that name, or it was removed."""
         if any(each.file == file for each in self._passes):
             with suppress(OSError, UnicodeDecodeError):
                 return (self._folder / file).read_text(encoding="utf-8")
@@ -97,7 +97,7 @@ def _passes(content: dict[str, Any]) -> tuple[FlownPass, ...]:
 
 
 def _pass(row: dict[str, Any]) -> FlownPass:
-    """Raises ValueError, KeyError, TypeError for what is no such row."""
+    """One row of the list. Raises ValueError, KeyError, TypeError for a wrong row."""
     if not _NAME.fullmatch(row["file"]):
         raise ValueError(f"{row['file']!r} is no picture of a pass")
     starts = row["relay_starts"]

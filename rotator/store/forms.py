@@ -1,4 +1,4 @@
-"""The name of a file's form with its number, `rotator counts 1`, and the way from an earlier number to today's.
+"""The name of a file's form with its number, `rotator counts 1`, and the steps from an earlier number to the present.
 
 Knows that a file may come from an earlier version of the program, or from a later one. Does not know any content.
 """
@@ -20,9 +20,9 @@ class LaterFormError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """`steps`: one for each number but today's, the first from 1 to 2. So a file of any age can be read.
+    """`steps`: one for each earlier number, the first from 1 to 2. So a file of any age can be read.
 
-    A change of what a file holds adds a step, and the number of today rises with it.
+    A change of a file's content adds a step, and the present number rises with it.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Form:
         return 1 + len(self.steps)
 
     def brought_up(self, content: object) -> dict[str, Any]:
-        """The content as it is written today. Raises LaterFormError; ValueError where it is another file's."""
+        """The content in the present form. Raises LaterFormError; ValueError: it belongs to another file."""
         said = content.get("format") if isinstance(content, dict) else None
         found = re.fullmatch(rf"{re.escape(self.name)} ([1-9]\d{{0,5}})", said) if isinstance(said, str) else None
         if not isinstance(content, dict) or found is None:

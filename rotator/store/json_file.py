@@ -1,4 +1,4 @@
-"""One JSON file with a format name, replaced as a whole: each file in which the box keeps something has this form.
+"""One JSON file with a format name, replaced as a whole: the form of each file in which the box stores something.
 
 Knows that a damaged or foreign file must not stop the box, and that the file of a later version stays as it is. Does
 not know what the content means: each store has its own `parse`.
@@ -42,7 +42,7 @@ def decode(form: Form, text: str, parse: Parse[T]) -> T:
 
 
 def damage(fault: Exception) -> str:
-    """What is wrong with the content of a file, in words."""
+    """The error in the content of a file, in words."""
     if isinstance(fault, KeyError):
         return f"the key {fault.args[0]} is missing"
     return str(fault) or type(fault).__name__
@@ -69,12 +69,12 @@ class JsonFile:
         self._form = form
         self._what = what
         self._later = ""
-        """Why the file is another version's, and stays as it is; empty where it is ours."""
+        """Why the file belongs to another version, and stays as it is; empty: it is of this version."""
 
     def load(self, parse: Parse[T], *, absent: T, damaged: T, consequence: str) -> T:
-        """The value in the file; `absent` without a file; `damaged` where the file cannot be read or parsed.
+        """The value in the file; `absent` without a file; `damaged` if the file cannot be read or parsed.
 
-        `consequence`: what a damaged file means for the box, for the log.
+        `consequence`: for the log: the effect of a damaged file on the box.
         """
         try:
             return decode(self._form, self._text(), parse)
@@ -89,7 +89,7 @@ class JsonFile:
             return damaged
 
     def _text(self) -> str:
-        """Raises OSError; ValueError where this is no text file of a sensible size."""
+        """The text of the file. Raises OSError; ValueError: no text, or too large."""
         if self.path.exists() and not self.path.is_file():
             raise ValueError("it is no file")  # a pipe would keep the start waiting
         with self.path.open("rb") as file:

@@ -20,7 +20,7 @@ FORM = Form("rotator knobs")
 LEAST, MOST = 0.1, 1.1
 """The full scale of a working knob lies between these shares of its supply."""
 DIGITS = 4
-"""A share has so many digits in the file."""
+"""Digits of a share in the file."""
 
 FullScales = dict[Axis, float]
 """The reading of each knob at the end of its travel, as a share of the knob's supply."""

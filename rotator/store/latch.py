@@ -1,7 +1,7 @@
 """The file that keeps a latched stop or a storm park: after a restart of the program or the Pi it still holds.
 
 Knows the file's form, and that a damaged file means a stop: the box cannot know that there was none. Written only when
-a stop begins or ends, for each write wears the card. Does not know who may stop or release the antenna.
+a stop begins or ends, because each write wears the card. Does not know who may stop or release the antenna.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ FORM = Form("rotator latch")
 BEFORE = " before the restart"
 LONGEST_NAME = 200
 DAMAGED = Latch(f"the damaged file {FILE_NAME}")
-"""The box says this of itself when it cannot read its file."""
+"""The box gives this as the sender of the stop when it cannot read its file."""
 
 
 class Kept(Enum):
@@ -51,7 +51,7 @@ class LatchFile:
         return Latch(latch.by.removesuffix(BEFORE) + BEFORE, storm=latch.storm)
 
     def save(self, latch: Latch | None) -> bool:
-        """Write it, unless the file says so already: a repeated stop is the same stop. False: the write failed."""
+        """Write it, unless the file already has it: a repeated stop is the same stop. False: the write failed."""
         if self._kept is _kind(latch):
             return True
         done = self._file.save({"by": latch.by if latch else "", "storm": latch is not None and latch.storm})

@@ -22,11 +22,11 @@ log = logging.getLogger(__name__)
 
 FORM = Form("rotator state")
 WORTH_WRITING = 0.05
-"""Memory cards wear: a change smaller than this share waits for the end of the program."""
+"""A change smaller than this share is written only at the end of the program, because memory cards wear."""
 LEAST_COAST_DEG = 0.2
 """A shorter coast is compared as if it were this long: 5 % of a very short coast is only noise."""
 SLOWEST, FASTEST = 0.1, 4.0
-"""What a motor's speed may be, as a multiple of the configured one. Other figures are of another motor, or damaged."""
+"""Possible speeds of a motor, as multiples of the configured speed. Others are damaged, or of another motor."""
 LONGEST_COAST_S = 5.0
 
 Motors = tuple[LearntMotor, LearntMotor]
@@ -74,7 +74,7 @@ class LearntFile:
         return known
 
     def note(self, learnt: Mapping[Axis, Motors]) -> None:
-        """The figures with which the box starts. They are written only after a change."""
+        """Note the figures with which the box starts. They are written only after a change."""
         self._kept = dict(learnt)
 
     def save(self, learnt: Mapping[Axis, Motors], *, ending: bool) -> None:
@@ -93,7 +93,7 @@ class LearntFile:
 
 
 def _tables(content: dict[str, Any]) -> dict[Axis, Mapping[str, Any]]:
-    """What the file has of each axis, not yet looked at."""
+    """The raw table of each axis in the file."""
     return {axis: dict(content["axes"][axis.value]) for axis in Axis if axis.value in content["axes"]}
 
 

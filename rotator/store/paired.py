@@ -1,6 +1,6 @@
 """The file of the browsers and programs that may move the antenna: their names, and a hash of each token.
 
-Knows the file's form and its bounds. A token itself is never in it. Does not know who may do what.
+Knows the file's form and its bounds. The file never has a token itself. Does not know rights.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ _LATEST_S = 1e11
 
 @dataclass(frozen=True, slots=True)
 class Paired:
-    """One browser or program. `digest`: SHA-256 of its token. Moments are seconds since 1970; `seen_s`: 0 where the box
-    did not know the time."""
+    """One browser or program. `digest`: SHA-256 of its token. Times are seconds since 1970; `seen_s` 0: the box did not
+    know the time."""
 
     number: int
     name: str
@@ -36,7 +36,7 @@ class Paired:
 
 @dataclass(frozen=True, slots=True)
 class PairedList:
-    """All of them. `highest`: the highest number that was ever given, for no number is given twice."""
+    """All pairings. `highest`: the highest number ever used, because no number is used twice."""
 
     paired: tuple[Paired, ...] = ()
     highest: int = 0

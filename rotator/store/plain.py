@@ -1,7 +1,7 @@
 """Reads a file that a person has named, whole: an ordinary file of a sensible size.
 
-A pipe without a writer, or a device that never ends, would be waited for for ever. Knows file types and sizes. Does not
-know what is in the file.
+The read of a pipe without a writer, or of an endless device, would never end. Knows file types and sizes. Does not know
+the content of the file.
 """
 
 from __future__ import annotations
@@ -11,18 +11,18 @@ import stat
 from pathlib import Path
 
 MOST_BYTES = 4_000_000
-"""A configuration has some thousand bytes, a pass a hundred thousand."""
+"""Bytes. A configuration has some thousand, a pass a hundred thousand."""
 
 
 class NoPlainFileError(OSError):
-    """There is something with this name, but no file that can be read whole. `strerror` says what, for the user."""
+    """This name is no file that can be read whole. `strerror` says what it is, for the user."""
 
     def __init__(self, path: Path, what: str) -> None:
         super().__init__(0, what, str(path))
 
 
 def read_plain(path: Path, most_bytes: int = MOST_BYTES) -> bytes:
-    """Raises OSError; of that NoPlainFileError where it is a pipe, a device or too large."""
+    """The bytes of the file. Raises OSError; its kind NoPlainFileError: a pipe, a device or too large."""
     # O_NONBLOCK: a pipe without a writer is opened at once.
     with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
         mode = os.fstat(file.fileno()).st_mode

@@ -1,7 +1,7 @@
-"""The file of the priorities that a person has changed on the page: the configuration itself stays as it was written.
+"""The file of the priorities that a person has changed on the page. The configuration itself is not changed.
 
-Knows that a change holds only while the configuration says what it said then: a person who writes a new priority into
-the file is obeyed. Does not know what a priority is good for.
+Knows that a change is valid only until the priority in the configuration is changed: then the configuration counts.
+Does not know the use of a priority.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MOST_PRIORITY = 1000.0
 
 @dataclass(frozen=True, slots=True)
 class Changed:
-    """`written`: what the configuration said when it was changed."""
+    """`written`: the priority in the configuration at the time of the change."""
 
     priority: float
     written: float
@@ -35,7 +35,7 @@ def decode(text: str) -> Mapping[str, Changed]:
 
 
 class Priorities:
-    """May be used from any thread: a change replaces the whole. Failures to write go to the log."""
+    """May be used from any thread: a change replaces all priorities at once. Failures to write go to the log."""
 
     def __init__(self, path: Path) -> None:
         self._file = JsonFile(path, FORM, "the order of the plan")
@@ -44,12 +44,12 @@ class Priorities:
         self._changed = self._file.load(_changes, absent=nothing, damaged=nothing, consequence=told)
 
     def of(self, name: str, written: float) -> float:
-        """The priority in force of a target, as the configuration names it and what it says."""
+        """The present priority of a target. `written`: its priority in the configuration."""
         changed = self._changed.get(name)
         return changed.priority if changed is not None and changed.written == written else written
 
     def change(self, priorities: Mapping[str, float], written: Mapping[str, float]) -> bool:
-        """From now on these are in force. False: they could not be written, and end with the program."""
+        """Use these priorities from now on. False: they could not be written, and end with the program."""
         self._changed = {
             name: Changed(priority, written[name]) for name, priority in priorities.items() if priority != written[name]
         }

@@ -26,7 +26,7 @@ REFUSED_EVERY = 10
 
 
 def after(trusts: Trusts, *, proper: bool) -> Trusts:
-    """What may be believed of two relays once the program has ended: after a crash less than after a proper end."""
+    """The trust in two relays after the end of the program: after a crash less than after a proper end."""
     if proper:
         return trusts
     plus, minus = (Trust.UNSEEN if each is Trust.OPEN else each for each in trusts)

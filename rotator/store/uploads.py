@@ -1,7 +1,7 @@
-"""The folder of the files of elements that people have sent by the page: how many, how large, under which names.
+"""The folder of the files of elements that people have uploaded on the page: their number, sizes and names.
 
-Knows names and bounds, and that a file is checked before it takes its name: a file that is refused leaves nothing, and
-the one it should have replaced stays. Does not know elements: the check comes with each file.
+Knows names and bounds, and that a file is checked before it gets its name: a refused file leaves no trace, and the file
+that it should replace stays. Does not know elements: the caller gives the check.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from rotator.store.whole import write_whole
 FOLDER = "uploaded"
 """Beside the state file."""
 MOST_BYTES = 2_000_000
-"""Of one file: ten thousand satellites as TLE."""
+"""Bytes of one file: ten thousand satellites as TLE."""
 MOST_FILES = 16
 LONGEST_NAME = 60
 SUFFIX = ".txt"
 UNCHECKED = "sent.unchecked"
-"""While it is checked a file has this name, whose ending no reader of the folder takes."""
+"""Name of a file during the check. No reader of the folder takes this ending."""
 _UNFIT = re.compile(r"[^A-Za-z0-9_-]+")
 
 
@@ -30,7 +30,7 @@ class NotKeptError(ValueError):
 
 
 class Uploads:
-    """`put` and `remove` belong to one thread at a time. They may wait for the disk."""
+    """Call `put` and `remove` from one thread at a time. They may wait for the disk."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -41,9 +41,9 @@ class Uploads:
         return []
 
     def put(self, said: str, content: bytes, faults: Callable[[Path], Sequence[str]]) -> str:
-        """Keep a file, in place of one of the same name. `faults`: what is wrong with it. Returns the name that it has.
+        """Store a file, in place of one of the same name. `faults` returns its errors. Returns its name in the folder.
 
-        `said`: what the person calls it. Raises NotKeptError.
+        `said`: the person's name for it. Raises NotKeptError.
         """
         name = file_name(said)
         if len(content) > MOST_BYTES:
@@ -76,7 +76,7 @@ class Uploads:
 
 
 def file_name(said: str) -> str:
-    """The name in this folder of what a person calls a file: never a path, never hidden. Raises NotKeptError."""
+    """The name in this folder for a person's name of a file: never a path, never hidden. Raises NotKeptError."""
     last = said.replace("\\", "/").rpartition("/")[2]
     stem = _UNFIT.sub("-", last.rpartition(".")[0] or last).strip("-")[:LONGEST_NAME]
     if not stem:

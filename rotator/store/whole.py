@@ -1,4 +1,4 @@
-"""Replaces a file as a whole: after a power failure at any moment there is the old content or the new, never a part.
+"""Replaces a file as a whole: after a power failure at any time the file has the old content or the new, never a part.
 
 Knows files and folders. Does not know what a file contains.
 """
@@ -16,9 +16,9 @@ NEW = ".new"
 def write_whole(path: Path, content: str | bytes) -> None:
     """Replace the file by `content`, text as UTF-8. Mode and owner stay those of the old file; a link stays a link.
 
-    Raises OSError. The old file is then unchanged, except where only the last step failed, the sync of the folder: the
-    new file is then in place, and a power failure may bring the old one back. A second call repeats all steps, and
-    overwrites a `.new` file that the first one left.
+    Raises OSError. Then the old file is unchanged. Exception: if only the last step failed, the sync of the folder, the
+    new file is in place, and a power failure may bring the old one back. A second call repeats all steps, and
+    overwrites a `.new` file that the first call left.
     """
     path = path.resolve()
     new = path.with_name(path.name + NEW)

@@ -1,4 +1,4 @@
-"""Both axes on a screen: where each is, where it should be, how far it is off, and which way its motor runs.
+"""Both axes on a screen: the angle of each, its target, its error, and the direction of its motor.
 
 Knows the numbers and the bars of an axis, on a wide and on a narrow screen. Does not know what else is shown.
 """
@@ -19,14 +19,14 @@ from rotator.views.sky_plot import ANTENNA_STYLE, TARGET_STYLE
 from rotator.views.words import ALARMS, TURNS, by_itself, degrees
 
 WIDE = 60
-"""From this width on, the numbers stand beside the bars."""
+"""Cells: at this width or more, the numbers stand beside the bars."""
 _NUMBERS, _LAMPS = 18, 12
 """Cells for the numbers at the left of a bar, and for both lamps at its right."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ranks:
-    """Of the rows of an axis: the numbers, then what a low terminal leaves out, one after the other."""
+    """Ranks of the rows of an axis: first the numbers, then the rows that a low terminal leaves out."""
 
     numbers: int
     bars: int
@@ -43,7 +43,7 @@ def axis_rows(status: Status, mount: Mount | None, width: int, ranks: Ranks) -> 
 
 
 def lamps(drives: Mapping[Axis, Direction], axis: Axis) -> list[Text]:
-    """The relays of an axis: clockwise or up, then the other one."""
+    """The lamps of an axis's relays: first clockwise or up, then the other one."""
     texts = []
     for direction in (Direction.PLUS, Direction.MINUS):
         on = drives[axis] is direction
@@ -113,7 +113,7 @@ def _filled(bar: Bar, each: AxisStatus) -> Text:
 
 
 def _off_deg(each: AxisStatus) -> float | None:
-    """How far the axis has to turn, clockwise or up where it is positive."""
+    """How far the axis has to turn; positive: clockwise or up."""
     return None if each.target_deg is None or each.shown_deg is None else each.target_deg - each.shown_deg
 
 
@@ -124,7 +124,7 @@ def _bar(status: Status, axis: Axis, mount: Mount | None, cells: int) -> Bar:
 
 
 def _forbidden(status: Status, axis: Axis, mount: Mount | None) -> Iterator[Zone]:
-    """Where this axis must not go while the other one stands where it does."""
+    """The forbidden zones of this axis at the present angle of the other one."""
     other = status.axis(Axis.ELEVATION if axis is Axis.AZIMUTH else Axis.AZIMUTH).angle_deg
     for sector in mount.sectors if mount else ():
         here, there = sector.azimuth, sector.elevation

@@ -1,7 +1,7 @@
-"""An axis as a bar: from its low limit to where it is, in eighths of a cell, and the scale below.
+"""An axis as a bar: from its low limit to its angle, in eighths of a cell, with the scale below.
 
-Marks the overlap, where the antenna points as it did a turn ago, and the forbidden sectors. Knows angles, cells and
-colours. Does not know whether the antenna or its target is shown.
+Marks the overlap, where the antenna points as it did a turn before, and the forbidden sectors. Knows angles, cells and
+colours. Does not know whether the bar is the antenna or its target.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from operator import itemgetter
 from rich.text import Text
 
 PARTS = "▏▎▍▌▋▊▉█"
-"""A cell filled from its left by one eighth, two eighths and so on."""
+"""A cell filled from the left by one eighth, two eighths and so on."""
 OVERLAP, FORBIDDEN = "░", "▒"
 _STEPS_DEG = (5, 10, 15, 30, 45, 90, 180, 360)
 _LABEL_CELLS = 8
-"""Cells from one label of the scale to the next, at least."""
+"""Least number of cells from one label of the scale to the next."""
 
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A part of the range that is marked: `mark` where the bar is empty, `filled` as the colour of the bar there."""
+    """A marked part of the range. `mark`: the character where the bar is empty; `filled`: colour of the bar there."""
 
     name: str
     from_deg: float
@@ -38,7 +38,7 @@ class Zone:
 
 
 def overlap(low_deg: float, high_deg: float) -> list[Zone]:
-    """Beyond a whole turn the antenna points where it has pointed before."""
+    """The zones beyond a whole turn, where the antenna points in the same directions again."""
     return [Zone("overlap", low_deg + 360.0, high_deg, OVERLAP, "dim", "yellow")] if high_deg > low_deg + 360.0 else []
 
 
@@ -48,18 +48,18 @@ def forbidden(name: str, from_deg: float, to_deg: float) -> Zone:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """A range of an axis on so many cells."""
+    """The range of an axis, drawn on a number of cells."""
 
     low_deg: float
     high_deg: float
     cells: int
     zones: Sequence[Zone] = ()
-    """Of two at one place, the first is shown."""
+    """If two zones are at one place, the first is shown."""
 
     def filled_to(self, angle_deg: float | None, style: str, *, names: bool = False) -> Text:
-        """Beyond an end the bar is full, or nearly empty: never quite, for an empty bar means an unknown angle.
+        """Beyond the high end the bar is full; beyond the low end nearly empty, as an empty bar means an unknown angle.
 
-        `names`: each zone says its name where the bar is empty and there is room for it.
+        `names`: show the name of each zone where the bar is empty and has room for it.
         """
         eighths = 0
         if angle_deg is not None:
@@ -86,7 +86,7 @@ class Bar:
         return text
 
     def scale(self) -> Text:
-        """The limits at both ends, and round angles between them where there is room."""
+        """The limits at both ends, and round angles between them if there is room."""
         places = {0: f"{self.low_deg:g}"}
         last = f"{self.high_deg:g}"
         places[self.cells - len(last)] = last
@@ -115,7 +115,7 @@ class Bar:
 
     def _zone(self, cell: int) -> Zone | None:
         from_deg = self.low_deg + cell * self._cell_deg
-        # A sector that is narrower than a cell is marked too.
+        # A sector narrower than a cell is marked too.
         return next((z for z in self.zones if z.from_deg < from_deg + self._cell_deg and z.to_deg > from_deg), None)
 
 

@@ -1,6 +1,6 @@
 """The report of `rotator doctor`: lines for the operator, a JSON object for programs.
 
-Knows the layout of the lines and the keys of the object. Does not know what is checked.
+Knows the layout of the lines and the keys of the object. Does not know the checks.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def report(findings: Findings) -> RenderableType:
 
 
 def verdict(findings: Findings) -> str:
-    """How many findings need a repair, are warnings, or were skipped, in one line."""
+    """One line: how many findings need a repair, how many are warnings, how many checks were skipped."""
     counts = Counter(finding.mark for _, finding in findings)
     wrong, warnings, skipped = (counts[mark] for mark in (Mark.WRONG, Mark.WARNING, Mark.SKIPPED))
     parts = [f"{Mark.WRONG} {wrong} to repair"] if wrong else []

@@ -1,7 +1,7 @@
 """A frame of rows and tables that fits into the terminal.
 
 On a small terminal whole rows and whole columns are left out before a text is cut. Knows widths, heights, and the ranks
-by which rows and columns are left out. Does not know what the rows show.
+by which rows and columns are left out. Does not know the content of the rows.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from rich.text import Text
 ENDLESS = 10_000
 """The height of an output that is no terminal, in rows."""
 _GAPS = (3, 2)
-"""Cells between two columns: the first number if the table then fits, else the second."""
+"""Cells between two columns: the first number if the table fits with it, otherwise the second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ class Column:
 
     `right`: aligned to the right. `width`: cells of the texts, 0 for as many as the longest text needs. `least`: the
     fewest cells to which the column may shrink; None: it does not shrink. `rank`: on a narrow terminal the columns with
-    the highest rank are left out first; rank 0 always stays. `end`: a text too long is cut at its beginning.
+    the highest rank are left out first; rank 0 always stays. `end`: a text that is too long is cut at its beginning.
     """
 
     heading: str
@@ -46,7 +46,7 @@ class Column:
 
     @property
     def natural(self) -> int:
-        """The column's cells where there is room. A fixed `width` keeps the column in place while its text changes."""
+        """The column's cells if there is room. A fixed `width` keeps the column in place while its text changes."""
         longest = max((cell.cell_len for cell in self.cells), default=0)
         return max(len(self.heading), self.width or longest)
 
@@ -90,7 +90,7 @@ class Framed:
 
 
 def wrapped(text: str, width: int, style: str, rank: int) -> list[Row]:
-    """The text in as many rows as it needs, broken between words where possible."""
+    """The text in as many rows as it needs, broken between words if possible."""
     words = Text(text, style=style)
     return [Row(line, rank) for line in words.wrap(Console(width=width), width)]
 
@@ -132,7 +132,7 @@ def boxed(rows: Sequence[Text], frame: Style) -> list[Text]:
 def _fit(columns: list[Column], width: int) -> tuple[list[Column], int, list[int]]:
     """The columns that are shown, the gap between them, and the width of each, in cells.
 
-    Where the table is too wide: first the gap becomes narrower, then the columns with a rank shrink, then they are left
+    If the table is too wide, the gap becomes narrower first. Then the columns with a rank shrink, then they are left
     out. The columns with rank 0 shrink last.
     """
     while True:

@@ -14,16 +14,16 @@ from rotator.views.words import rise_or_set
 
 COLUMNS = 16
 ALTERNATE_S = 2.0
-"""The time for which the upper row shows the satellite, or one notice, before it changes."""
+"""Seconds that the upper row shows the satellite, or one notice, before it changes."""
 _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
 
 
 def rows(status: Status, now_s: float, code: str = "") -> tuple[str, str]:
     """`SAT A:235 E:025` over `ANT A:231 E:024`; SIM in place of ANT when the rotor is simulated.
 
-    With a mode switch its letter follows: A, M, J or P. Where it is not at AUTO, a notice says so.
+    With a mode switch its letter follows: A, M, J or P. If it is not at AUTO, a notice says so.
 
-    `code`: what pairs a browser now. It has the upper row, and only faults alternate with it.
+    `code`: the code that pairs a browser now. It takes the upper row, and only faults alternate with it.
     """
     name = "SIM" if status.simulated else "ANT"
     upper = f"SAT A:{_azimuth(status.wanted_azimuth_deg)} E:{_elevation(status.wanted_elevation_deg)}"
@@ -50,7 +50,7 @@ def _notices(status: Status) -> list[str]:
     for axis in Axis:
         if missing := status.axis(axis).missing:
             notices.append(f"{_SHORT[axis]} {missing[0].lcd}")
-    # A notice without a text for the LCD is left out here. It is in the log.
+    # A notice without a text for the LCD is only in the log.
     for axis in Axis:
         notices += [f"{_SHORT[axis]} {notice.lcd}" for notice in status.axis(axis).notices if notice.lcd]
     if status.flown is not None:

@@ -1,6 +1,6 @@
-"""One pass as a drawing (SVG): the sky with target and antenna, how far the antenna was off, and each start of a motor.
+"""One pass as a drawing (SVG): the sky with target and antenna, the pointing error, and each start of a motor.
 
-Knows traces, and how several flights of one pass stand side by side. Knows no rotor and no file.
+Knows traces, and how to draw several flights of one pass together. Knows no rotor and no file.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ OFF_TOP, OFF_BOTTOM = 688, 800
 """The strip of the errors."""
 ROWS_Y, ROW_PX = 862, 42
 MOST_POINTS = 1300
-"""Of a line: beyond that a pass of hours makes a drawing of megabytes."""
+"""Points of a line, at most: without a limit a pass of hours makes a drawing of megabytes."""
 MOMENTS = (0.22, 0.38, 0.54, 0.7)
-"""Parts of the time for which the target is up."""
+"""Moments marked on the sky: shares of the time for which the target is up."""
 SCALES_DEG = (1.0, 2.0, 4.0, 8.0, 16.0, 40.0, 80.0, 180.0)
 SHARE_SHOWN = 0.98
-"""So much of the errors fits into their strip: a swing right round would leave nothing else to be seen."""
+"""Share of the errors that the strip must hold. If it held all, a swing right round would hide the others."""
 MINUTES = (1, 2, 5, 10, 20, 60, 120, 240)
 MOST_MINUTES = 16
 
@@ -39,7 +39,7 @@ DRIVES: dict[str, Callable[[Sample], int]] = {
 
 
 class Summed(Protocol):
-    """What is told of a flight in words. `relay_starts`: None where there are no relays."""
+    """A flight as numbers, for the words of the drawing. `relay_starts` None: there are no relays."""
 
     @property
     def rms_deg(self) -> float: ...
@@ -50,26 +50,26 @@ class Summed(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Flown:
-    """A pass as it was flown. `name`: by whom; `colour`: one of those of `sky_svg`."""
+    """A flown pass. `name`: who flew it; `colour`: a colour of `sky_svg`."""
 
     name: str
     colour: str
     trace: Sequence[Sample]
     summary: Summed
     clicks_s: Mapping[str, Sequence[float]] | None = None
-    """By axis, when a relay closed, where the trace is too coarse to tell. None: the trace tells."""
+    """For each axis, the times at which a relay closed, if the trace is too coarse. None: the trace shows them."""
 
     def clicks(self, axis: str) -> Sequence[float]:
         return closings(self.trace, DRIVES[axis]) if self.clicks_s is None else self.clicks_s[axis]
 
 
 def closings(trace: Sequence[Sample], drive: Callable[[Sample], int]) -> list[float]:
-    """When one axis, which stood or turned the other way, began to turn."""
+    """The times at which one axis, at rest or turning the other way, began to turn."""
     return [after.t for before, after in pairwise(trace) if drive(after) not in (0, drive(before))]
 
 
 def draw(target: str, flights: Sequence[Flown], mount: Mount | None = None) -> str:
-    """`mount`: what stands around the antenna, where that is to be seen."""
+    """The whole drawing. `mount`: draw the horizon and sectors around the antenna; None: do not."""
     first = flights[0]
     rows = list(_rows(flights))
     high = ROWS_Y + ROW_PX * len(rows) + 34
@@ -129,7 +129,7 @@ class _Row:
 
 
 def _rows(flights: Sequence[Flown]) -> Iterator[_Row]:
-    """One for each flight; of a single flight one for each axis."""
+    """A row for each flight. If there is only one flight: a row for each axis."""
     if len(flights) > 1:
         for each in flights:
             every = sorted(t for axis in DRIVES for t in each.clicks(axis))
@@ -146,7 +146,7 @@ def _rows(flights: Sequence[Flown]) -> Iterator[_Row]:
 
 
 def _turns(trace: Sequence[Sample], drive: Callable[[Sample], int]) -> Iterator[tuple[float, float]]:
-    """From when to when an axis was driven."""
+    """Begin and end of each time in which an axis was driven."""
     for driven, run in groupby(trace, lambda sample: drive(sample) != 0):
         moments_s = [sample.t for sample in run]
         if driven:
@@ -180,7 +180,7 @@ def _legend(target: str, flights: Sequence[Flown], mount: Mount | None) -> Itera
 
 
 def _moments(flights: Sequence[Flown]) -> Iterator[str]:
-    """At some moments: the target as a ring, and a line from it to where each antenna points then."""
+    """At some moments: the target as a ring, and a line from it to the direction of each antenna."""
     up = [sample.t for sample in flights[0].trace if sample.target_el >= 0]
     if not up:
         return

@@ -1,6 +1,6 @@
-"""The same picture where the terminal has no more than ASCII: each character becomes one other.
+"""The same picture for a terminal that has only ASCII: each other character is replaced by one of ASCII.
 
-Knows characters. The console of a Raspberry Pi's own screen, for example, has neither dots nor parts of blocks.
+Knows characters. Does not know the picture. The console of a Raspberry Pi, for example, has no dots and no part blocks.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ _ASCII = str.maketrans(
     }
 )
 _NO_UNICODE = frozenset({"linux", "vt100", "vt102", "vt220", "ansi", "cons25", "dumb", "unknown"})
-"""Values of TERM. The text mode of Linux has some hundred characters, whatever its encoding."""
+"""Values of TERM. The text mode of Linux has only some hundred characters, with any encoding."""
 
 
 def ascii_only(encoding: str, term: str) -> bool:
-    """Whether a terminal of this name, with this encoding, shows no more than ASCII."""
+    """Whether a terminal of this name, with this encoding, shows only ASCII."""
     return term in _NO_UNICODE or "utf" not in encoding.lower()
 
 
 def in_ascii(text: Text) -> Text:
-    """The same with the same cells and colours. The degree sign stays: Latin-1 and the Linux console have it."""
+    """The text with the same cells and colours. The degree sign stays: Latin-1 and the Linux console have it."""
     plain = text.copy()
     plain.plain = text.plain.translate(_ASCII)
     return plain

@@ -1,4 +1,4 @@
-"""The box where no picture can be drawn: a greeting, and a line for each change.
+"""The box on an output that cannot show a picture: a greeting, and a line for each change.
 
 Knows words. Does not know when a line is printed.
 """
@@ -32,7 +32,7 @@ def line(status: Status) -> str:
 
 
 def farewell(status: Status) -> str:
-    """What stands when the box has ended."""
+    """The state in which the box has ended."""
     places = [f"{axis.value} {_last(status.axis(axis))}" for axis in Axis]
     lines = [f"The box has ended and turns nothing any more. The antenna is at {', '.join(places)}."]
     return "\n".join([*lines, *(f"FAULT {fault}" for fault in status.faults)])

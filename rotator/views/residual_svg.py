@@ -1,7 +1,7 @@
-"""How far off the boom is at each point of a calibration at the sky, as a drawing (SVG): before, and by the new model.
+"""The boom's error at each point of a sky calibration, as a drawing (SVG): before, and with the new model.
 
-At each point's place on the sky an arrow leads from where the boom should point to where the target was, drawn larger.
-Knows points and models. Does not know how a model is found.
+At each point's place on the sky an enlarged arrow leads from the boom's intended direction to the target. Knows points
+and models. Does not know how a model is found.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ def residual_svg(points: Sequence[SkyPoint], before: PointingModel, after: Point
 
 
 def _arrow(point: SkyPoint, miss: Miss, degree_px: float, colour: str, width: float) -> str:
-    """To the right and above, as the station sees it, on a sky that is seen from below with north up."""
+    """An arrow for an error to the right and upward, as seen from the station, on a sky seen from below, north up."""
     right, above = (part * degree_px for part in miss)
     angle = math.radians(point.azimuth_deg)
     x, y = SKY.place((point.azimuth_deg, point.elevation_deg))
-    # Along the circle clockwise, and towards the middle.
+    # To the right: along the circle clockwise. Upward: towards the middle.
     end = x + right * math.cos(angle) - above * math.sin(angle), y + right * math.sin(angle) + above * math.cos(angle)
     return line([(x, y), end], colour, width)
 

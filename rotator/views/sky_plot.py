@@ -22,12 +22,12 @@ from rotator.status import Status
 ANTENNA, TARGET, BOTH = "◆", "◇", "◈"
 ANTENNA_STYLE, TARGET_STYLE, FORBIDDEN_STYLE = "bold cyan", "bold green", "red"
 LEAST_CELLS = 24, 12
-"""The smallest plot that can be read: columns and rows."""
+"""Columns and rows of the smallest readable plot."""
 _BRAILLE = 0x2800
 _DOTS = ((0x01, 0x02, 0x04, 0x40), (0x08, 0x10, 0x20, 0x80))
 """The bit of each dot of a cell: by column, then by row from the top."""
 _ROUNDED = 0.4999
-"""Half a dot, and no more: what lies between two dots, but for the last digit, is always the same one."""
+"""A little less than half a dot: a direction between two dots then always gives the same dot."""
 _TRAIL_STEP_DEG, _TRAIL_S = 1.5, 1200.0
 
 Way = tuple[float, float]
@@ -35,22 +35,22 @@ Way = tuple[float, float]
 
 
 def direction(azimuth_deg: float, elevation_deg: float) -> Way:
-    """Where an antenna at these axis angles points: also on another turn, or over the top."""
+    """The direction of an antenna at these axis angles, also on another turn or over the top."""
     if elevation_deg > 90.0:
         azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
     return azimuth_deg % 360.0, elevation_deg
 
 
 def pointing(status: Status) -> Way | None:
-    """Where the antenna points; None while an angle is not known."""
+    """The direction of the antenna; None while an angle is not known."""
     azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
     return None if azimuth_deg is None or elevation_deg is None else direction(azimuth_deg, elevation_deg)
 
 
 def aimed_at(status: Status) -> Way | None:
-    """Where it should point: each axis at its target, or where it rests without one. None: no axis has a target.
+    """The wanted direction: each axis at its target, or at its place if it has none. None: no axis has a target.
 
-    In a planned pass the satellite itself: there a target is the place where the axis comes to rest next.
+    In a planned pass it is the satellite's direction, because there a target is the next place of rest.
     """
     azimuth, elevation = status.azimuth, status.elevation
     if azimuth.target_deg is None and elevation.target_deg is None:
@@ -71,7 +71,7 @@ def off_deg(status: Status) -> float | None:
 
 
 class Trail:
-    """Where the antenna has pointed in the last 20 minutes."""
+    """The directions of the antenna in the last 20 minutes."""
 
     def __init__(self) -> None:
         self._points: deque[tuple[float, Way]] = deque()
@@ -138,7 +138,7 @@ class _Canvas:
 
 
 def _runs(cells: Iterable[tuple[str, str]]) -> Iterable[tuple[str, str]]:
-    """Neighbours of one style together: that is drawn much faster."""
+    """Joins neighbours of the same style, which is drawn much faster."""
     for style, run in groupby(cells, lambda cell: cell[1]):
         yield "".join(text for text, _ in run), style
 
@@ -160,7 +160,7 @@ def plot(columns: int, rows: int, status: Status, mount: Mount | None, trail: It
 
 @lru_cache(maxsize=4)
 def _backdrop(columns: int, rows: int, mount: Mount | None) -> _Canvas:
-    """What stays the same while the terminal has this size."""
+    """The part of the plot that stays the same while the terminal has this size."""
     canvas = _Canvas(columns, rows)
     # At any size the horizon is solid, and the others are dotted, with two empty dots between two.
     for elevation_deg, dots, most_deg in ((0.0, 0.9, 1.0), (30.0, 3.0, 6.0), (60.0, 3.0, 10.0)):

@@ -28,12 +28,12 @@ COLOURS = {
     "trees": ("#3f7d3f", "#5da05d"),
     "sector": ("#c04040", "#c85a55"),
 }
-"""By name: on white paper, and on a dark screen."""
+"""Colours by name: on white paper, and on a dark screen."""
 STEP_DEG = 2.0
 
 
 def document(wide: int, high: int, title: str, parts: Iterable[str]) -> str:
-    """The whole drawing. A viewer that knows of dark screens takes the dark colours there."""
+    """The whole drawing. A viewer that supports dark screens uses the dark colours there."""
     light, dark = (_rules(theme) for theme in (0, 1))
     return "\n".join(
         (
@@ -55,14 +55,15 @@ def _rules(theme: int) -> str:
 
 
 def text(x: float, y: float, words: str, anchor: str = "start", colour: str = "ink") -> str:
-    """With an edge in the colour of the paper, painted first: not every viewer keeps letters on top of their edge."""
+    """Words with an edge in the colour of the paper. The edge is a text of its own, painted first, because not every
+    viewer paints letters on top of their edge."""
     where, shown = f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"', escape(words)
     edge = f'{where} class="f-paper s-paper" stroke-width="4" stroke-linejoin="round">{shown}</text>'
     return f'{edge}{where} class="f-{colour}">{shown}</text>'
 
 
 def line(points: Iterable[Way], colour: str, width: float, *, opacity: float = 1.0, dashes: str = "") -> str:
-    """`points` are pixels."""
+    """A line. `points` are pixels."""
     at = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
     dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
     return (
@@ -78,7 +79,7 @@ def dot(at: Way, radius: float, fill: str, edge: str, width: float = 1.0) -> str
 
 @dataclass(frozen=True, slots=True)
 class SkySvg:
-    """The horizon is the outer circle. In pixels."""
+    """The sky in pixels. The horizon is the outer circle."""
 
     x: float
     y: float
@@ -122,7 +123,7 @@ class SkySvg:
                 yield line(ends, "sector", 1.5, opacity=0.8, dashes="3 5")
 
     def _around(self, mount: Mount, sector: Sector) -> list[Way]:
-        """Its edge, on the sky."""
+        """The edge of a sector on the sky."""
         west, east = sector.azimuth.min_deg, sector.azimuth.max_deg
         low, high = max(sector.elevation.min_deg, 0.0), min(sector.elevation.max_deg, 180.0)
         across, upright = (
@@ -134,7 +135,7 @@ class SkySvg:
         return [mount.pointed(*axes) for axes in edge]
 
     def _area(self, edges: Iterable[list[Way]], colour: str, opacity: float) -> str:
-        """Between its edges: what lies within two of them is left free."""
+        """An area between edges. A part inside two edges stays free."""
         rings = (" L ".join(f"{x:.1f} {y:.1f}" for x, y in map(self.place, edge)) for edge in edges)
         path = " ".join(f"M {ring} Z" for ring in rings)
         return f'<path d="{path}" class="f-{colour} s-{colour}" fill-opacity="{opacity:g}" fill-rule="evenodd"/>'

@@ -1,7 +1,7 @@
-"""The picture of the box in a terminal: what it does, its display, both axes, the links, what is wrong, and the keys.
+"""The picture of the box in a terminal: its activity, its display, both axes, the links, the faults, and the keys.
 
-Knows the layout: what a small terminal leaves out, and what a large one gains. Does not read keys, clocks or the
-terminal: it turns values into something that `rich` can print.
+Knows the layout on small and large terminals. Does not read keys, clocks or the terminal: it turns values into
+something that `rich` can print.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ KEYS = "space STOP   q quit", "park + Enter: storm park", "resume + Enter: go on
 _GLASS = "bold #e8f4ff on #1040c0"
 _BEZEL = Style.parse("#708090")
 _LEFT, _BETWEEN = 76, 3
-"""Cells that all else keeps beside the plot of the sky, at least, and the cells between the two."""
+"""Least number of cells for everything beside the plot of the sky, and the cells between the two."""
 _GLASS_ROWS = 18
-"""From this height on, the display is shown."""
+"""Rows: at this height or more, the display is shown."""
 _KEYS, _TROUBLE, _ANGLE, _WHO, _MORE, _BARS, _LINKS_LINE, _SCALES, _LINK, _NOTE, _HEAD, _RULE, _SPACE, _LOG = range(14)
 """Ranks of rows: on a low terminal the rows with the highest rank are left out first. The newest log line has the rank
 _LOG, and each older one the next higher rank.
@@ -53,7 +53,7 @@ _BLANK = Row(Text(), _SPACE)
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What the picture shows beside the status.
+    """The content of the picture that is not in the status.
 
     `trail`: where the antenna has been. `typed`: what the person at the keys has typed, and what came of it.
     `ascii_only`: the terminal has no more characters than that.
@@ -110,7 +110,7 @@ def picture(
         yield from [_links_line(wires)] if short else _links(wires, width)
         yield _BLANK
         for fault in status.faults:
-            # What to do this moment is the headline.
+            # The headline already says what to do at once.
             text = str(fault).removeprefix(fault.act_now).strip()
             yield from [_cut(text, width)] if short_faults else _trouble(text, width)
         if to_go_on := release(status):
@@ -118,7 +118,7 @@ def picture(
         noted = [spoken(note) for note in (*status.notices, *lacks(status), *notes(status))]
         for note in noted:
             yield from wrapped(note, width, WARNS, _NOTE)
-        # What stands there as a note needs no second line.
+        # A log line that is already shown as a note is left out.
         news = [line for line in log_rows if not line.endswith(tuple(noted))]
         for age, line in _newest_last(news):
             yield from wrapped(line, width, "dim", _LOG + age)
@@ -145,7 +145,7 @@ def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequenc
 
 
 def _plot_beside(width: int, height: int) -> tuple[int, int]:
-    """Columns and rows of a plot at the right of all else; none where there is no room."""
+    """Columns and rows of a plot at the right side; 0 if there is no room."""
     columns = min(width - _LEFT - _BETWEEN, 2 * min(height, width // 4))
     rows = min(height, columns // 2 + 1)
     least_columns, least_rows = sky_plot.LEAST_CELLS
@@ -153,7 +153,7 @@ def _plot_beside(width: int, height: int) -> tuple[int, int]:
 
 
 def _keys(width: int) -> Iterator[Row]:
-    """What each key does, in one row where there is room."""
+    """The meaning of each key, in one row if there is room."""
     line = "   ".join(KEYS)
     narrow = KEYS[0], "Words: park (storm), resume (go on)"
     for text in (line,) if len(line) <= width else narrow:
@@ -167,7 +167,7 @@ def _padded(text: Text, width: int) -> Text:
 
 
 def _trouble(text: str, width: int) -> list[Row]:
-    """Its first row says where and what. On a low terminal the others make way for the keys and the angles."""
+    """A fault. Its first row names the axis and the fault. On a low terminal the other rows are left out first."""
     first, *more = wrapped(text, width, ALARMS, _MORE)
     return [replace(first, rank=_TROUBLE), *more]
 
@@ -185,7 +185,7 @@ def _newest_last(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
 
 
 def _top(glass: Sequence[str], status: Status, wires: Sequence[WireView], width: int, height: int) -> Iterator[Row]:
-    """What the box does, on whose orders, and how well; beside its display where there is room."""
+    """The activity of the box, its sender and its error; beside the display if there is room."""
     words, style = headline(status)
     mode = f"panel at {status.mode.name}, " if status.mode_switch else ""
     said = [

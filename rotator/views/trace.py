@@ -1,4 +1,4 @@
-"""A pass as it was flown, sample by sample: where the target was, where the antenna pointed, which motor ran.
+"""A flown pass, sample by sample: the target's direction, the antenna's direction, the motors.
 
 Knows angles and the errors between them. Does not know who took the samples: a rehearsal, or the running box.
 """
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from rotator.control.sky.angles import great_circle_deg
 
 SETTLING_S = 5.0
-"""Pointing errors in the first seconds of the pass do not count: the antenna has to start and catch up first."""
+"""Seconds at the begin of the pass whose pointing errors do not count: the antenna has to catch up first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Sample:
 
 
 def errors_deg(trace: Sequence[Sample]) -> list[float]:
-    """Those that count, the smallest first: while the target is above the horizon, after `SETTLING_S`."""
+    """The errors that count, the smallest first: while the target is above the horizon, after `SETTLING_S`."""
     return sorted(sample.error_deg for sample in trace if sample.t >= SETTLING_S and sample.target_el >= 0)
 
 

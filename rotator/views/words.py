@@ -1,6 +1,6 @@
-"""The state of the box in the words of its screens: one for what it does, who orders it, and what lets it go on.
+"""The state of the box in the words of its screens: its activity, its sender, and how to let it go on.
 
-Knows a status. Does not know where on a screen the words stand.
+Knows a status. Does not know the place of the words on a screen.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class WireView(Protocol):
 
 
 def headline(status: Status) -> tuple[str, str]:
-    """What the box does, in a few words, and their style. The worst comes first."""
+    """The activity of the box in a few words, and their style. The worst comes first."""
     faulted = [axis.value for axis in Axis if status.axis(axis).fault]
     homing = [axis.value for axis in Axis if status.axis(axis).homing]
     lacking = [axis.value for axis in Axis if status.axis(axis).missing]
@@ -79,7 +79,7 @@ def headline(status: Status) -> tuple[str, str]:
 
 
 def _at_rest(status: Status) -> tuple[str, str]:
-    """An axis that had an order and lost it, as by a fault that has been repaired, does not point where it was sent."""
+    """The words for a box at rest. An axis that lost its order, as by a fault, does not point at its target."""
     if off_deg(status) is None:
         return "AT REST", PLAIN
     lost = [axis for axis in Axis if status.axis(axis).target_deg is None and status.wanted_deg(axis) is not None]
@@ -90,13 +90,13 @@ def _at_rest(status: Status) -> tuple[str, str]:
 
 
 def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
-    """Who has given the order in force."""
+    """The source of the present order."""
     source = status.controlled_by
     if not source:
         return "no orders"
     if status.flown is not None and not status.recognised:
         return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}{status.flown.error_text}"
-    # An address of a machine says more than the port at which this box listens.
+    # The sender's address is better than the port at which this box listens.
     where = "" if status.controlled_from else next((w.where for w in wires if source.partition("#")[0] == w.name), "")
     recognised = f": {status.flown.name}, {rise_or_set(status.flown, status.at_s)}" if status.flown else ""
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
@@ -123,12 +123,12 @@ def off_target(status: Status) -> str:
 
 
 def is_out(wire: WireView) -> bool:
-    """Whether the link waits for its port, file or peer: no program can use it now."""
+    """Whether no program can use the link now: it waits for its port, file or peer."""
     return wire.state in OUT
 
 
 def links(wires: Sequence[WireView]) -> tuple[str, str]:
-    """How many links there are and which of them are out, in a few words, and their style."""
+    """The number of links and the names of those that are out, in a few words, and their style."""
     count = f"{len(wires)} link{'' if len(wires) == 1 else 's'}"
     if out := [wire for wire in wires if is_out(wire)]:
         return f"{count}, out: {', '.join(wire.name for wire in out)}", WARNS
@@ -136,13 +136,13 @@ def links(wires: Sequence[WireView]) -> tuple[str, str]:
 
 
 def pass_starts(status: Status) -> str:
-    """How often the motors were started; empty: no relay starts them."""
+    """The number of motor starts; empty: no relay starts the motors."""
     counts = [f"{axis.value} {count}" for axis in Axis if (count := status.axis(axis).starts) is not None]
     return f"motor starts in this pass: {', '.join(counts)}" if counts else ""
 
 
 def release(status: Status) -> str:
-    """Which keys let the antenna move again; empty: it may."""
+    """The keys that let the antenna move again; empty: it may move."""
     if not status.faults:
         return RELEASE if status.latched else ""
     for fault in status.faults:
@@ -166,7 +166,7 @@ def notes(status: Status) -> list[str]:
 
 
 def lacks(status: Status) -> list[str]:
-    """What each axis needs before it may be aimed."""
+    """The missing steps of each axis before it may be aimed."""
     texts = []
     for axis in Axis:
         each = status.axis(axis)
