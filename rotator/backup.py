@@ -1,11 +1,11 @@
 """A backup of the box: its configuration and what it has learnt, in one file; and the way back.
 
-What is restored waits beside the configuration, checked, until the box starts again: then all of it is put in place
-before anything is loaded, and what was there is kept as a backup of its own. A power cut at any moment leaves the old
-box or the new one. Knows which files belong to a backup, and how each is checked.
+A restored backup is checked, then waits beside the configuration until the box starts again. Then all of it is put in
+place before anything is loaded, and the old files are kept as a backup of their own. A power cut at any time leaves the
+old box or the new one. Knows which files belong to a backup, and how each is checked.
 
-Left out on purpose: counts and doubts about relays, for the antenna has moved since, and a relay does not mend itself;
-and who is paired, for what was revoked stays revoked.
+Left out on purpose: counts, because the antenna has moved since; doubts about relays, because a relay does not mend
+itself; pairings, because a revoked pairing must stay revoked.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ CHECKS: Mapping[str, Callable[[str], object]] = {
     knobs.FILE_NAME: knobs.decode,
     priorities.FILE_NAME: priorities.decode,
 }
-"""What may be in it beside the configuration. Each check raises ValueError."""
+"""The files that may be in it beside the configuration. Each check raises ValueError."""
 MOST_BYTES = 1_000_000
 LARGEST_PART = 300_000
 WAITING, UNDER_WAY, FAILED, BEFORE = ".restore", ".restoring", ".restore-failed", ".before-restore.zip"
@@ -54,7 +54,7 @@ class BackupError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Backup:
-    """One that has been checked. `parts`: the texts of the state's files, by name."""
+    """A checked backup. `parts`: the texts of the state's files, by name."""
 
     made: str
     program: str
@@ -65,9 +65,9 @@ class Backup:
 
 
 def pack(path: Path, config: Config | None, utc_s: float) -> bytes:
-    """A backup of what is there now. `config`: tells where the state is; None: the file cannot be used.
+    """A backup of the present files. `config` tells where the state is; None: the file cannot be used.
 
-    Raises OSError where the configuration cannot be read.
+    Raises OSError if the configuration cannot be read.
     """
     texts = {CONFIGURATION: read_plain(path)}
     if config is not None:

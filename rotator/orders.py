@@ -16,7 +16,7 @@ BOTH = (Axis.AZIMUTH, Axis.ELEVATION)
 
 @dataclass(frozen=True, slots=True)
 class Aim:
-    """Point there. An axis that is None keeps what it was doing.
+    """Point in this direction. An axis that is None keeps its motion or target.
 
     Azimuth above 360 names the turn of the overlap; elevation above 90 is an antenna flipped by the program that sends
     it. Not `engaged`: show the target, but stop the motors. `place`: rest there, and one coordinate alone is the axis's
@@ -31,7 +31,7 @@ class Aim:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """At this moment a motor on relays leaves for this place on the axis's own scale."""
+    """At this time a motor on relays starts for this angle on the axis's own scale."""
 
     leave_s: float
     place_deg: float
@@ -54,9 +54,9 @@ class AxisPlan:
 
 
 DEPARTS_DEG = 1.5
-"""A stream has left a satellite's path when an order is further from it than its rounding and this."""
+"""Degrees beside the rounding: an order further from the satellite's path ends the match of its stream."""
 BEARS_OUT_DEG = 0.5
-"""Orders of a program whose clock is so far ahead as supposed are as near to the path as their rounding and this."""
+"""Degrees beside the rounding: if the assumed clock error is right, the orders lie this near to the path."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,15 +65,15 @@ class Stream:
 
     rounding_deg: float
     ahead_s: tuple[float, float]
-    """The program's clock is ahead of the true time by the first of these at least, by the second at most."""
+    """The least and the largest lead of the program's clock over the true time, in seconds."""
 
     @property
     def departs_deg(self) -> float:
-        """An order further than this from the path is not for that satellite."""
+        """Degrees: an order further from the path is not for this satellite."""
         return self.rounding_deg + DEPARTS_DEG
 
     def narrowed(self, apart_deg: Mapping[float, float]) -> tuple[float, ...]:
-        """Of clocks, those that the latest order bears out: by each it is so far from the path."""
+        """The clock errors that agree with the latest order. `apart_deg`: its distance from the path, for each."""
         nearest_deg = min(apart_deg.values())
         return tuple(
             ahead_s for ahead_s, deg in apart_deg.items() if deg <= max(nearest_deg, self.rounding_deg) + BEARS_OUT_DEG
@@ -82,7 +82,7 @@ class Stream:
 
 @dataclass(frozen=True, slots=True)
 class Fly:
-    """Fly a pass that is known to its end, as planned. Moments are on the control loop's clock."""
+    """Fly a pass that is known to its end, as planned. Times are on the control loop's clock."""
 
     name: str
     path: tuple[tuple[float, float, float], ...]
@@ -90,15 +90,15 @@ class Fly:
     azimuth: AxisPlan
     elevation: AxisPlan
     sets_s: float | None = None
-    """When the target sets, where that is after the end of the path; infinite: it does not set."""
+    """When the target sets, if that is after the end of the path; infinite: it does not set."""
     expected_error_deg: float = 0.0
-    """How far the target may be from its path, at most."""
+    """Largest possible distance of the target from its path."""
     beyond_beam: bool = False
-    """That is more than half of the antenna's beam."""
+    """Whether that distance is more than half of the antenna's beam."""
     table: bool = False
-    """The path is a table that a person has handed in."""
+    """Whether the path is a person's table."""
     stream: Stream | None = None
-    """The sender's own stream, which this flight takes the place of while its orders agree. None: no stream."""
+    """The sender's own stream, which this flight replaces while the orders agree. None: no stream."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +109,8 @@ class Jog:
     direction: Direction
     seconds: float | None = None
     held: bool = False
-    """A person holds a button over a network. The time counts from the order on, also while a relay waits, for no
-    later order may come. OFF: the button is let go, which ends this sender's own jog and nothing else."""
+    """Whether a person holds a button over a network. The time counts from the order, also while a relay waits,
+    because no later order may come. OFF: the button is released, which ends only this sender's own jog."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +119,7 @@ class Stop:
 
     axes: tuple[Axis, ...] = BOTH
     latch: bool = False
-    """From the console, the panel or the page: nothing moves until a person releases it there."""
+    """Whether the stop stays until a person releases it: from the console, the panel or the page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +132,7 @@ class Park:
     """Go to the park position."""
 
     storm: bool = False
-    """From a person: go there now, ending everything else, and stay until a person releases the box."""
+    """Whether a person ordered a storm park: end everything, go there now, and stay until a person releases the box."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,14 +173,14 @@ class Speed:
 
 
 class Mode(Enum):
-    """Which source may move the antenna: the position of a front panel's mode switch, or of that on the page."""
+    """Which source may move the antenna: the position of the mode switch on a front panel or on the page."""
 
     AUTO = "auto"
     """The links, with the panel's nudges added."""
     MANUAL = "manual"
-    """The panel's knobs alone; or the person who has set it."""
+    """Only the panel's knobs, or the person who set the mode."""
     JOG = "jog"
-    """The panel's jog switches alone; or the buttons that the person who has set it holds."""
+    """Only the panel's jog switches, or the held buttons of the person who set the mode."""
     PARK = "park"
     """No source: the antenna stays where it is."""
 
@@ -194,7 +194,7 @@ class SetMode:
 
 @dataclass(frozen=True, slots=True)
 class Nudge:
-    """Shift every order for this axis by so much, until the mode changes."""
+    """Shift each order for this axis by this angle, until the mode changes."""
 
     axis: Axis
     offset_deg: float
@@ -217,19 +217,19 @@ class Confirm:
 
 @dataclass(frozen=True, slots=True)
 class RelaysChecked:
-    """A person has looked at both relays of this axis, and they are open: what the box could not see itself."""
+    """A person has looked at both relays of this axis, and they are open. The box itself could not see that."""
 
     axis: Axis
 
 
 @dataclass(frozen=True, slots=True)
 class LetGo:
-    """Motors without torque. A person orders it, for an antenna that is out of balance turns."""
+    """Take the torque from the motors. A person orders it, because an antenna out of balance then turns."""
 
 
 @dataclass(frozen=True, slots=True)
 class Remark:
-    """The panel has something to say of this axis that stops nothing, as a notice of its status. No text: no more."""
+    """A notice of the panel about this axis, for its status. It stops nothing. Without text it ends the notice."""
 
     axis: Axis
     text: str = ""
@@ -244,9 +244,9 @@ class Leave:
 
 @dataclass(frozen=True, slots=True)
 class Take:
-    """A person takes the antenna: it stops, and holds it until `GiveBack`. Orders of programs have no effect then.
+    """A person takes the antenna: it stops, and the person holds it until `GiveBack`. Programs' orders have no effect.
 
-    Not `stops`: what this person moves or tracks goes on.
+    Not `stops`: this person's own motion or tracking goes on.
     """
 
     stops: bool = True
@@ -272,11 +272,11 @@ CONSOLE, PANEL = "console", "panel"
 KEYBOARD = "keyboard"
 """The keys of `rotator run`, the space bar among them."""
 PERSONS = (CONSOLE, KEYBOARD, PANEL, "calibrate", PAGE)
-"""What a person uses at the box, as the link of a source. No link of the configuration has such a name."""
+"""The links of persons at the box, in a source. No link of the configuration has one of these names."""
 MQTT = "mqtt"
-"""The broker of [mqtt], as the link of a source: a program, however many stand behind it."""
+"""The broker of [mqtt], as the link of a source. It counts as one program, even if many use the broker."""
 TRACKER = "track"
-"""What tracks a target because a person said so, as the link of a source."""
+"""The tracker, which follows a target for a person, as the link of a source."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,16 +286,16 @@ class Source:
     link: str
     connection: int = 0
     host: str = field(default="", compare=False)
-    """The address of the machine at the other end; empty: not known, or there is none."""
+    """The address of the machine at the other end; empty: not known, or no network."""
 
     @property
     def is_person(self) -> bool:
-        """A person gives these orders at the box: at the console, at the panel, on the page, in a calibration."""
+        """Whether a person gives these orders: at the console, at the panel, on the page, in a calibration."""
         return self.link in PERSONS
 
     @property
     def holds(self) -> bool:
-        """What this person moves stays theirs until it is given back, for a person on the page looks away."""
+        """Whether this person's motion holds the antenna until it is given back: on the page a person may look away."""
         return self.link == PAGE
 
     @property
@@ -313,6 +313,6 @@ class Refusal:
 
     reason: str
     forbidden: bool = False
-    """The sender may give no orders at all."""
+    """Whether the sender may give no orders at all."""
     out_of_range: bool = False
-    """The order names an angle outside a range. A program that tracks repeats such an order for a long time."""
+    """Whether the order has an angle outside a range. A tracking program repeats such an order for a long time."""

@@ -15,60 +15,60 @@ from rotator.orders import Mode
 
 @dataclass(frozen=True, slots=True)
 class LearntMotor:
-    """One direction of a motor, as the box has found it."""
+    """One direction of a motor, as measured by the box."""
 
     speed_dps: float
     coast_deg: float
-    """How far it goes on when switched off at full speed."""
+    """The coast after a switch-off at full speed."""
 
 
 class Trust(Enum):
-    """What is known of a motor relay that was switched off. Each but OPEN keeps the opposite relay open."""
+    """The knowledge of a motor relay that was switched off. Each value except OPEN keeps the opposite relay open."""
 
     OPEN = "open"
     """The axis has been seen to stop when this relay opened, and the relay has not been closed since."""
     UNSEEN = "not seen yet"
-    """It has been closed, or may have been. A window of readings will tell."""
+    """It was closed, or may have been. A window of readings will decide."""
     DOUBTED = "doubted"
-    """The window is over and has shown nothing: the axis stands where a motor with current might stand as well."""
+    """The window is over without a result: the axis stands at a place where a motor with current might stand too."""
     WELDED = "found closed"
     """The axis ran on after this relay was switched off, or turned by itself."""
 
 
 Trusts = tuple[Trust, Trust]
-"""Of the relays clockwise or up, and of the other way."""
+"""Trust in the relay clockwise or up, and in the opposite relay."""
 ALL_OPEN: Trusts = (Trust.OPEN, Trust.OPEN)
 
 Places = tuple[float | None, float | None]
-"""Angles met clockwise or up, and the other way; None: none was."""
+"""Angles of stops met clockwise or up, and in the other direction; None: no stop met."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tries:
-    """What one motor was tried for in vain: the next run of the program goes on from there."""
+    """The vain tries of one motor: the next run of the program continues their count."""
 
     faults: int = 0
-    """How often a fault has stopped it lately."""
+    """The number of recent faults that stopped it."""
     kind: FaultKind | None = None
     """The latest of those faults."""
     stood_deg: Places = (None, None)
-    """Where the driven axis stood still last."""
+    """The last angle at which the driven axis stood still."""
     stops_deg: Places = (None, None)
-    """The stops that it has met: only a person lets it go there again."""
+    """The stops that it has met. Only a person lets it go there again."""
     pressed: bool = False
-    """It has no calibration, and presses did not move it."""
+    """Whether presses did not move it while it has no calibration."""
     driven: bool = False
-    """Its latest run has not been seen to move it."""
+    """Whether its latest run has no visible motion yet."""
 
 
 NO_TRIES = Tries()
 
 AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
-"""A reading beyond an end of the range by up to so many times the noise, and by so much at most, is that end. Five
-times: one reading in three million is further off."""
+"""A reading beyond an end of the range is shown as that end, up to this many times the noise and up to this many
+degrees. Five times: one reading in three million is further off."""
 
 JOG_ENDS_DEG = 0.5
-"""Nearer than this to the end of its range no jog turns an axis towards that end."""
+"""Degrees: nearer than this to an end of its range, no jog turns an axis towards that end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,52 +76,52 @@ class AxisStatus:
     min_deg: float
     max_deg: float
     angle_deg: float | None = None
-    """Where the axis is on its own scale; the last good value while the sensor is out; None before the first."""
+    """The axis angle on its own scale; the last good value while the sensor is out; None before the first value."""
     seen: bool = True
-    """The latest reading is a good one. False: the sensor is out, and `angle_deg` is where the axis was last seen."""
+    """Whether the latest reading is good. False: the sensor is out, and `angle_deg` is the last good angle."""
     raw: float | None = None
     """The sensor's own reading, for calibration."""
     source: AngleSource = AngleSource.MEASURED
     target_deg: float | None = None
-    """The axis angle aimed at; None: at rest, nothing to do."""
+    """The ordered axis angle; None: no target."""
     tolerance_deg: float | None = None
-    """So near to the target counts as there; None: no target."""
+    """The distance from the target that counts as reached; None: no target."""
     drive: Direction = Direction.OFF
     moving: bool = False
-    """Driven, or still coasting."""
+    """Whether it is driven or still coasts."""
     by_itself_dps: float = 0.0
-    """The speed at which it turns though nobody drives it, clockwise or up positive; 0: it stands, or is driven."""
+    """The speed at which it turns by itself without a motor, clockwise or up positive; 0: it stands, or is driven."""
     starts: int | None = None
-    """How often its motor has been started in this pass; None: no relay starts it."""
+    """The number of motor starts in this pass; None: no relay starts it."""
     missing: tuple[Missing, ...] = ()
-    """What this axis lacks; until it has it, it obeys only jog. Empty: commissioned."""
+    """The missing steps of this axis. Until they are done it obeys only jog orders. Empty: commissioned."""
     lost: str = ""
-    """Why the count is lost, where `missing` holds HOMING."""
+    """Why the count is lost, if `missing` has HOMING."""
     confirmable: bool = False
-    """A person may say at which angle the axis stands: it counts, or its controller cannot know."""
+    """Whether a person may confirm the angle: the axis counts pulses, or its controller cannot know the angle."""
     calibration: tuple[tuple[float, float], ...] | None = None
-    """The calibration in force, (raw, degrees), for the configuration file."""
+    """The present calibration, (raw, degrees), for the configuration file."""
     fault: Fault | None = None
     homing: bool = False
-    """It looks for its end stop."""
+    """Whether it searches its end stop."""
     notices: tuple[Notice, ...] = ()
-    """What a person should know of this axis though it stops nothing."""
+    """Remarks about this axis for a person. They stop nothing."""
     noise_deg: float = 0.1
-    """Scatter of the readings, rms, as seen so far."""
+    """Scatter of the readings, rms, since the start."""
     learnt: tuple[LearntMotor, LearntMotor] | None = None
-    """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
+    """The measured motor, first clockwise or up, then the other direction; None: the drive has nothing to learn."""
     trusts: Trusts = ALL_OPEN
-    """What is known of its two relays."""
+    """The trust in its two relays."""
     tries: Tries = NO_TRIES
-    """What it was tried for in vain."""
+    """The vain tries of its motor."""
     correction_deg: float = 0.0
-    """How much further the boom points than the axis reads, as the mount really stands."""
+    """The boom's direction minus the axis angle, from the measured tilt and offset of the mount."""
     waiting: bool = False
-    """Its relay closes as soon as the axis has been seen to stand, or its opposite relay to open."""
+    """Whether its relay waits to close, until the axis stands visibly or the opposite relay has visibly opened."""
 
     @property
     def shown_deg(self) -> float | None:
-        """`angle_deg` as programs and people are told it: at an end stop without the noise that reads beyond it."""
+        """`angle_deg` for programs and people: at an end stop without the noise beyond it."""
         if self.angle_deg is None:
             return None
         nearest_deg = min(max(self.angle_deg, self.min_deg), self.max_deg)
@@ -130,19 +130,19 @@ class AxisStatus:
 
     @property
     def points_deg(self) -> float | None:
-        """Where the boom points, as programs read it: on the turn of the axis, and above 90° over the top."""
+        """The direction of the boom for programs: on the turn of the axis, and above 90° over the top."""
         return None if self.shown_deg is None else self.shown_deg + self.correction_deg
 
     @property
     def at_target(self) -> bool:
-        """It stands as near to its target as it is asked to."""
+        """Whether it stands within the tolerance of its target."""
         if self.target_deg is None or self.tolerance_deg is None or self.angle_deg is None:
             return False
         off_deg = abs(self.angle_deg - self.target_deg)
         return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
 
     def at_end(self, direction: Direction) -> bool:
-        """It is known to stand where no jog turns it any further that way."""
+        """Whether it surely stands where no jog turns it further in this direction."""
         if self.missing or self.angle_deg is None or not self.seen:
             return False
         end_deg = self.max_deg if direction > 0 else self.min_deg
@@ -150,40 +150,40 @@ class AxisStatus:
 
     @property
     def relays_in_doubt(self) -> bool:
-        """It matters to the axis that a person has seen its relays open."""
+        """Whether a person should check that its relays are open."""
         return self.fault is not None or self.waiting or Trust.DOUBTED in self.trusts or Trust.WELDED in self.trusts
 
     @property
     def uncalibrated(self) -> str:
-        """What this axis lacks, as text; empty: it is commissioned."""
+        """The missing steps of this axis, as text; empty: commissioned."""
         return ", ".join(f"{each.text} ({self.lost})" if each is Missing.HOMING else each.text for each in self.missing)
 
 
 SHOWN_ERROR_DEG = 0.1
-"""A smaller expected error is not told."""
+"""Degrees: a smaller expected error is not shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class Flown:
-    """The target of a planned pass that is flown. Moments are on the clock of `Status.at_s`."""
+    """The target of the planned pass that is flown. Times are on the clock of `Status.at_s`."""
 
     name: str
     begin_s: float
-    """When it rises; earlier than the status: it is up."""
+    """When it rises; before `at_s`: it is up."""
     end_s: float
     """When it sets; infinite: it does not."""
     expected_error_deg: float = 0.0
-    """How far it may be from where it is computed, from the age of its elements and from the clock."""
+    """The possible error of its computed direction, from the age of its elements and from the clock."""
     recognised: bool = False
-    """In the orders of a program that follows it; else the box tracks it by itself."""
+    """Whether a program's orders follow it. False: the box tracks it by itself."""
     beyond_beam: bool = False
-    """The expected error is more than half of the antenna's beam."""
+    """Whether the expected error is more than half of the antenna's beam."""
     table: bool = False
-    """A table that a person has handed in: it begins and ends, and does not rise or set."""
+    """Whether it is a person's table, which begins and ends, but does not rise or set."""
 
     @property
     def error_text(self) -> str:
-        """`, error up to 0.3°`, with a warning if that is beyond the beam; empty if it is not worth a word."""
+        """`, error up to 0.3°`, with a warning if that is beyond the beam; empty if the error is small."""
         if self.expected_error_deg < SHOWN_ERROR_DEG or self.recognised:
             return ""
         if self.beyond_beam:
@@ -196,9 +196,9 @@ class Latch:
     """A stop that only a person releases."""
 
     by: str
-    """Who has stopped the antenna."""
+    """The source of the stop."""
     storm: bool = False
-    """It is a storm park: the antenna may be sent to its park position, and nowhere else."""
+    """Whether it is a storm park: then the antenna may go to its park position only."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,30 +210,30 @@ class Status:
     """The direction last ordered, as ordered: what the display calls SAT."""
     wanted_elevation_deg: float | None = None
     latched: str = ""
-    """The source of a stop or storm park that only a person releases; empty: there is none."""
+    """The source of a stop or storm park that only a person releases; empty: no such stop."""
     storm: bool = False
-    """What is latched is a storm park, and the antenna is at it."""
+    """Whether the latched stop is a storm park in progress."""
     controlled_by: str = ""
     controlled_from: str = ""
-    """The address of the machine whose program that is; empty: not known, or there is none."""
+    """The address of that sender's machine; empty: not known, or no network."""
     held_by: str = ""
-    """The person who has taken the antenna and not given it back; empty: there is none."""
+    """The person who has taken the antenna and not given it back; empty: no person holds it."""
     timed_point: int = 0
     timed_points: int = 0
     simulated: bool = False
     speed_level: int = 4
     mode: Mode = Mode.AUTO
-    """The position of the front panel's mode switch; without one, what a person has set: AUTO at the start."""
+    """The position of the front panel's mode switch. Without a switch: the mode set by a person; at the start AUTO."""
     mode_by: str = ""
-    """Who has set it; empty: nobody, as at the start."""
+    """The source that set the mode; empty: not set since the start."""
     mode_switch: bool = False
-    """A front panel has such a switch."""
+    """Whether a front panel has a mode switch."""
     flown: Flown | None = None
-    """The box knows the target's path, and flies it as planned; None: it does not."""
+    """The planned pass that is flown; None: no planned pass."""
     notices: tuple[str, ...] = ()
-    """Whose orders have no effect, and why. The same trouble has the same text for as long as it lasts."""
+    """The sources whose orders have no effect, and why. A trouble keeps the same text as long as it lasts."""
     cycle_late_s: float = 0.0
-    """How late the last control cycle was."""
+    """Seconds by which the last control cycle was late."""
 
     def axis(self, axis: Axis) -> AxisStatus:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
@@ -243,12 +243,12 @@ class Status:
 
     @property
     def latch(self) -> Latch | None:
-        """What has to survive the end of the program; None: nothing is latched."""
+        """The latched stop, which must survive the end of the program; None: nothing is latched."""
         return Latch(self.latched, storm=self.storm) if self.latched else None
 
     @property
     def recognised(self) -> str:
-        """The satellite that a program's orders follow, and whose true path the antenna takes; empty: there is none."""
+        """The satellite that a program's orders follow and whose true path the antenna takes; empty: none."""
         return self.flown.name if self.flown is not None and self.flown.recognised else ""
 
     @property
@@ -257,7 +257,7 @@ class Status:
 
     @property
     def cut(self) -> bool:
-        """Whether the motors' supply is to be switched off."""
+        """Whether the motors' supply must be switched off."""
         return any(fault.cut for fault in self.faults)
 
     @property

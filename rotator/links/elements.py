@@ -27,14 +27,14 @@ Known = Callable[[], Sequence[Elements] | None]
 """The newest elements of each satellite: the same object until one is new. None: nothing has been read yet."""
 ROWS_AT_ONCE, PAUSE_S = 10, 0.001
 LOOK_S, MOST_LOOKS = 0.1, 100
-"""A box that has just started still reads its files. Who asks gets an answer after 10 s at the latest."""
+"""Seconds: longest wait for an answer. A box that has just started still reads its files."""
 MOST_CLIENTS = 16
 KEPT_S = 5.0
-"""A connection that asks nothing more is closed after this time."""
+"""Seconds: a connection without a further request is closed after this time."""
 
 
 class ElementsServer:
-    """Without its port the box runs all the same, and the log has the reason."""
+    """Without its port the box still runs, and the log has the reason."""
 
     def __init__(self, host: str, port: int, known: Known, *, allowed: Allowed) -> None:
         self._host = host
@@ -43,7 +43,7 @@ class ElementsServer:
         self._app = web.Application(middlewares=[self._only_allowed])
         self._app.add_routes(routes(known))
         self.where: tuple[str, int] | None = None
-        """Where it listens; None: it does not."""
+        """The address at which it listens; None: it does not listen."""
 
     async def run(self) -> None:
         """Serve until cancelled."""
@@ -87,7 +87,7 @@ class _TurnedAway(asyncio.Protocol):
 
 
 class _Answer:
-    """The elements as OMM, made once for all who ask, and anew when they are new."""
+    """The elements as OMM, made once for all clients, and again when they change."""
 
     def __init__(self, known: Known) -> None:
         self._known = known
@@ -113,7 +113,7 @@ class _Answer:
 
 
 def _body(elements: Sequence[Elements]) -> bytes:
-    """With pauses: the threads that turn the motors wait for the interpreter whenever this one has it."""
+    """The answer, made with pauses: the threads of the motors need the same interpreter."""
     rows = []
     for number, each in enumerate(elements):
         rows.append(json.dumps(omm.message(each)).encode())

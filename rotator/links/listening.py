@@ -1,7 +1,7 @@
 """Why the box cannot listen at an address, and what to write into its file instead.
 
-Knows the usual slips: the PC's address in place of the box's own, a name that nobody has, a port for root. Opens no
-port.
+Knows the usual errors: the PC's address in place of the box's own, a name that does not exist, a port for root. Opens
+no port.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from rotator.links.wire import reason
 
 LAST_OF_ROOT = 1023
 NOT_OURS = "could not bind"
-"""How asyncio of Python 3.13 begins, without a number, where no address is this machine's."""
+"""The begin of asyncio's text in Python 3.13, without an error number, if no address belongs to this machine."""
 
 
 def cannot_listen(fault: OSError | UnicodeError, host: str, port: int) -> str:

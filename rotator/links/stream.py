@@ -25,8 +25,8 @@ READ_BYTES = 512
 """Most bytes read from one client in one turn, so that a flood of commands cannot delay another client's stop."""
 
 GONE_AFTER_S = (5, 2, 3)
-"""A client that is silent for so many seconds is asked for a sign of life, so many seconds apart, so many times. One
-whose computer has lost its power or its network says no farewell; its jog ends 11 s later."""
+"""Seconds of silence before a client is asked for a sign of life; seconds between two questions; their number. A client
+that has lost power or network does not close its connection; its jog ends 11 s later."""
 
 
 class Clients:

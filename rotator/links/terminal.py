@@ -21,7 +21,7 @@ from rotator.links.openings import Openings
 
 READ_BYTES = 4096
 MOST_READS = 32
-"""More than the kernel keeps for a terminal: what one program has left behind is read in so many pieces."""
+"""Reads for the bytes that one program has left behind: more than the kernel keeps for a terminal."""
 
 
 class Terminal:

@@ -53,7 +53,7 @@ class Wire:
     last_in: bytes = b""
     last_out: bytes = b""
     count_in: int = 0
-    """Bytes that came so far: the same line once more is news too."""
+    """Bytes received since the start: the same line once more is news too."""
 
     def came(self, data: bytes) -> None:
         self.count_in += len(data)

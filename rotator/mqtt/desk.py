@@ -1,6 +1,6 @@
-"""What a message on a topic makes the box do: the methods of the page, for what stands behind a broker.
+"""Carries out a message on a topic: the methods of the page, for programs behind a broker.
 
-Knows rights, and that a message which the broker has kept is no order. Does not know how a message comes.
+Knows rights, and that a retained message of the broker is no order. Does not know how a message comes.
 """
 
 from __future__ import annotations

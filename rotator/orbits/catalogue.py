@@ -84,7 +84,7 @@ class Catalogue:
 
     @property
     def by_file(self) -> dict[Path, tuple[Elements, ...]]:
-        """What was read from each file, or stays of it."""
+        """The elements of each file; after a failed read, the earlier ones."""
         return {path: kept.sets for path, kept in self._kept.items()}
 
     @property
@@ -93,7 +93,7 @@ class Catalogue:
         return tuple(sorted(self._sets.values(), key=lambda each: (each.name.casefold(), each.catalogue_number)))
 
     def refresh(self) -> bool:
-        """Read what is new or has changed. Returns whether anything has."""
+        """Read new and changed files. Returns whether there was one."""
         paths, missing = files(self._places, self._to_come)
         before = dict(self._kept), self._missing
         self._has_looked = True

@@ -41,7 +41,7 @@ FEW_ORDERS, FEW_S = 3, 8.0
 KEPT = 30
 """A stream that comes upon a path later must agree with it for this many orders: any line crosses some path."""
 AGAIN_S = 2.0
-"""If `KEPT` orders have told no satellite, the next look is this much later."""
+"""Seconds until the next fit if `KEPT` orders have shown no satellite."""
 LONGEST_GAP_S = 20.0
 """Orders further apart do not belong together. Some programs send only when a whole degree has changed."""
 THIN_S = 0.9
@@ -98,7 +98,7 @@ class StreamWatch:
         return tuple(dict.fromkeys((*self._used, *self._wanted)))[:MOST_LIKELY]
 
     def followed(self, source: Source) -> Recognised | None:
-        """What the orders of this source follow."""
+        """The satellite that the orders of this source follow."""
         listener = self._listeners.get(source)
         return listener.recognised if listener else None
 
@@ -154,7 +154,7 @@ class _Listener:
         """The moment of the next fit, at the earliest."""
         self._followed: SampledPath | None = None
         self._clocks_s: tuple[float, ...] = ()
-        """How far ahead the program's clock may be, as the orders tell it so far."""
+        """The possible leads of the program's clock, by the orders until now."""
         self.recognised: Recognised | None = None
 
     @property

@@ -19,9 +19,9 @@ THINS_PER_KM = 0.1361
 CURVED = 9.1e-4
 """What the curve of the layers takes off, beside the third power."""
 LOW_DEG, HIGH_DEG = 5.0, 10.0
-"""Below the first the equation alone holds; it is not meant for what is above the second."""
+"""Below the first elevation only the equation is used; it is not valid above the second."""
 HORIZON_DEG = -0.76
-"""What stands so low seems to stand on the horizon. Further down nothing is seen: it is lifted no more."""
+"""Degrees: a target this low seems to be on the horizon. Below it nothing is seen, and the lift ends."""
 
 
 def bent_deg(elevation_deg: float, altitude_m: float = 0.0) -> float:

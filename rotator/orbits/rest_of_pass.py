@@ -1,4 +1,4 @@
-"""The rest of a pass that a program sends already: what is to be flown in place of its orders.
+"""The rest of a pass that a program already sends: the flight in place of its orders.
 
 Knows how far a program's clock may be behind, and that it sends on for a while after the set. Does not know how the
 satellite was recognised.
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from rotator.orbits.sight import Target
 
 CLOCKS_ASIDE_S = 10.0
-"""A path begins so long before now, for the orders of a clock that is behind."""
+"""Seconds before now at which a path begins, for the orders of a clock that is behind."""
 AFTER_SET_S = 30.0
 """Programs send for a while after the target has set."""
 LONGEST_PASS_S = 1800.0
@@ -27,7 +27,7 @@ class Rest:
 
 
 def rest_of_pass(satellite: Target, utc_s: float) -> Rest:
-    """What is to be flown in place of a stream from this moment on. Raises NotThere."""
+    """The flight in place of a stream from this time on. Raises NotThere."""
     rows: list[tuple[float, float, float]] = []
     last_up_s, at_s = utc_s, utc_s - CLOCKS_ASIDE_S
     while at_s <= min(last_up_s + AFTER_SET_S, utc_s + LONGEST_PASS_S):

@@ -45,7 +45,7 @@ class Target(Protocol):
         ...
 
     def late_s(self, utc_s: float) -> float:
-        """By how much it may be early or late on its way, in seconds, from the age of what is known of it."""
+        """Seconds by which it may be early or late on its path, from the age of its elements."""
         ...
 
 
@@ -68,7 +68,7 @@ def motion(target: Target, utc_s: float) -> Motion:
 
 
 def expected_error_deg(target: Target, utc_s: float, clock_s: float = 0.0) -> float:
-    """How far the target may be from where it is computed: an error along its way is an error of time.
+    """The possible error of the target's computed direction: an error along its path is an error of time.
 
     `clock_s`: by how much the clock may be wrong. Raises NotThere.
     """

@@ -16,13 +16,13 @@ from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target
 CLOCKS_S = tuple(quarter / 4 for quarter in range(-24, 23))
 """How far ahead of UTC the program's clock may be: 5 s either way. It may send what it computed up to a second ago."""
 UNSTEADY_S = 0.3
-"""Orders come by so much earlier or later than they are due."""
+"""Seconds by which orders may come too early or too late."""
 BIAS_DEG = 0.3
-"""On the sky, for the whole stream: other elements, another place of the station."""
+"""Degrees on the sky for the whole stream: error of other elements, or of another place of the station."""
 LEAST_DEG = 0.02
 """No order is taken for more exact."""
 RISING_DEG = -0.3
-"""Before the path is so high, an order for the horizon tells nothing of the satellite."""
+"""Degrees: below this elevation of the path, an order for the horizon shows nothing about the satellite."""
 FINEST_DEG = 0.01
 
 
@@ -116,7 +116,7 @@ def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: fl
 
 
 def telling(path: SampledPath, orders: Sequence[Heard]) -> list[Heard]:
-    """The orders that tell something of this satellite. Raises NotThere."""
+    """The orders that show something about this satellite. Raises NotThere."""
     latest_s = CLOCKS_S[-1]
     return [
         each for each in orders if each.elevation_deg > 0 or path.at(each.utc_s + latest_s).elevation_deg > RISING_DEG

@@ -1,4 +1,4 @@
-"""Satellites that fly as one, such as a station and the ships docked to it: one of them stands for all.
+"""Satellites that fly together, such as a station and the ships docked to it: one of them represents all.
 
 Knows that elements of one orbit may be of different hours. Does not know what the satellites are.
 """
@@ -16,11 +16,11 @@ from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
 
 TOGETHER_KM = 5.0
-"""Elements of some days are wrong by so much."""
+"""The error of elements that are some days old."""
 APART_S = 2700.0
-"""They are compared at two moments: so far apart a satellite that crosses the other's path has left it."""
+"""Seconds between the two comparisons: in this time a satellite that crosses the other's path has left it."""
 NEAR_DEG, NEAR_TILT_DEG, NEAR_REV_PER_DAY = 5.0, 0.05, 0.01
-"""Mean elements further apart, each at its own epoch, are of two orbits."""
+"""Mean elements that differ by more, each at its own epoch, belong to two orbits."""
 
 
 def one_of_each(satellites: Iterable[Satellite]) -> list[Satellite]:

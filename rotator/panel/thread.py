@@ -124,8 +124,8 @@ class PanelThread:
             thread.start()
 
     def stop(self) -> None:
-        """End the threads, save unsaved full scales, and switch lamps and meters off, because their chip runs without the
-        program too."""
+        """End the threads, save unsaved full scales, and switch lamps and meters off: their chip does not end with the
+        program."""
         self._stopping.set()
         for thread in self._threads:
             if thread.is_alive():
