@@ -55,6 +55,10 @@ class Attempts:
         self._relays = relays
         self._short_runs.note_relays(relays, speed_dps)
 
+    def settles(self, now_s: float) -> bool:
+        """Whether the readings may still show that the last run has moved the axis: a start now would be too soon."""
+        return self._short_runs.settles(now_s)
+
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
         """A good reading. Returns the fault that it shows, if any."""
         self._angle_deg = angle_deg

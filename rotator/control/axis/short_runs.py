@@ -28,6 +28,8 @@ UNKNOWN_RUN_S = 0.5
 """A shorter run says nothing of a motor that has not turned yet."""
 LEAST_RUN_S = 0.15
 """A shorter run may be over before a motor turns."""
+STOOD_STARTS = 10
+"""But this many runs of any length, one after the other, move even the antenna that only creeps to its target."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +71,9 @@ class ShortRuns:
         """The axis has been seen to move in a run."""
         self._runs = 0
         self._stood_s = 0.0
+        self._starts = 0
+        self._driven_s = 0.0
+        """The starts since it was last seen to move, and their runs in all."""
         self._backwards = 0
         self.tries = 0
         """Runs without motion since the last fault."""
@@ -78,16 +83,23 @@ class ShortRuns:
         """Whether the present run, or one before it, has not been seen to move the axis."""
         return self.tries > 0 or (not self._moved and (self._run is not None or self._ended is not None))
 
+    def settles(self, now_s: float) -> bool:
+        """Whether the last run is just over and has not been seen to move the axis: the readings may show it yet."""
+        if self._ended is None or self._moved or self._smoothed.deg is None:
+            return False
+        return now_s - self._ended.off_s < SETTLES_S
+
     def forget(self) -> None:
         """The fault is acknowledged, or the readings mean other places."""
         self._smoothed.forget()
         self._stands_deg = self._run = self._ended = self._from_deg = None
-        self._runs = self._backwards = self.tries = 0
-        self._stood_s = 0.0
+        self._runs = self._starts = self._backwards = self.tries = 0
+        self._stood_s = self._driven_s = 0.0
 
     def struck(self, kind: FaultKind) -> None:
         """A fault has stopped the axis. If it stood still, one more run without motion is enough for the next fault."""
         self._run, self._ended, self._counted, self.tries = None, None, False, 0
+        self._starts, self._driven_s = 0, 0.0
         if kind in STANDING_FAULTS:
             self._runs, self._stood_s = STOOD_RUNS - 1, 0.0
 
@@ -116,6 +128,7 @@ class ShortRuns:
         if self._stands_deg is None or abs(smoothed_deg - self._stands_deg) >= moved_deg:
             self._known = self._known or (self._stands_deg is not None and self._run is not None)
             self._stands_deg, self._runs, self._stood_s, self._moved = smoothed_deg, 0, 0.0, True
+            self._starts, self._driven_s = 0, 0.0
             self.tries = 0
         self._moved_deg = moved_deg
         if self._ended is not None and at_s - self._ended.off_s >= SETTLES_S:
@@ -132,9 +145,10 @@ class ShortRuns:
             return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}°")
         # A slow motor among noisy readings needs longer to show that it moves.
         enough_s = max(STOOD_S if self._known else UNKNOWN_STOOD_S, moved_deg / (TOLD_SHARE * self._speed_dps))
-        if self._stood_s < enough_s and self._runs < STOOD_RUNS:
+        creeps = self._starts >= STOOD_STARTS and self._driven_s * TOLD_SHARE * self._speed_dps >= moved_deg
+        if self._stood_s < enough_s and self._runs < STOOD_RUNS and not creeps:
             return None
-        runs = f"short runs {name}, {self._stood_s:.1f} s in all"
+        runs = f"short runs {name}, {max(self._stood_s, self._driven_s):.1f} s in all"
         measured = f"its motor made {runs}, but the angle stays at {smoothed_deg:.1f}°"
         return Fault(FaultKind.STANDS_STILL, self._axis, measured, f"at least {moved_deg:.1f}° in {enough_s:g} s")
 
@@ -147,7 +161,10 @@ class ShortRuns:
         if self._from_deg is not None and self._smoothed.deg is not None:
             gone_deg = (self._smoothed.deg - self._from_deg) * way
             self._backwards = self._backwards + 1 if gone_deg <= -self._moved_deg else 0
-        if not self._moved and run_s >= LEAST_RUN_S:
+        if self._moved:
+            return
+        self._starts, self._driven_s = self._starts + 1, self._driven_s + run_s
+        if run_s >= LEAST_RUN_S:
             self._runs += run_s >= self._telling_s
             self._stood_s += run_s
             self.tries += 1

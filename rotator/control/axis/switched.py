@@ -190,7 +190,10 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
             case HomeGoal(homing):
                 return self._home(now_s, homing)
             case AimGoal():
-                return self._law.rest(now_s) if angle_deg is None else self._law.aim(now_s, goal, self._faults.limits)
+                # Without the second condition a motor that stands near its target would be started several times a
+                # second.
+                waits = angle_deg is None or (not self._relays.closed and self._faults.settles(now_s))
+                return self._law.rest(now_s) if waits else self._law.aim(now_s, goal, self._faults.limits)
             case JogGoal(_, until_s) if until_s is not None and now_s >= until_s:
                 run = None
             case JogGoal(direction) if angle_deg is None:

@@ -52,6 +52,10 @@ class SwitchedFaults:
         """How far the axis may turn now."""
         return self._attempts.limits
 
+    def settles(self, now_s: float) -> bool:
+        """Whether the readings may still show that the last run has moved the axis: a start now would be too soon."""
+        return self._attempts.settles(now_s)
+
     @property
     def vain_presses(self) -> bool:
         """Whether presses without a calibration did not move the axis often enough."""

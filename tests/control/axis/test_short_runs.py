@@ -7,7 +7,7 @@ import random
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.short_runs import LEAST_RUN_S, ShortRuns
+from rotator.control.axis.short_runs import LEAST_RUN_S, STOOD_STARTS, ShortRuns
 from rotator.faults import Fault, FaultKind
 from tests.control.axis.switch import Switch
 
@@ -55,6 +55,10 @@ class Bench:
     def _switch(self, way: Direction) -> None:
         self._way = way
         self._relays.to(self._now_s, way)
+
+    @property
+    def settles(self) -> bool:
+        return self._runs.settles(self._now_s)
 
     @property
     def kinds(self) -> list[FaultKind]:
@@ -120,8 +124,29 @@ def test_an_axis_that_turns_is_never_accused(
     assert bench.faults == []
 
 
-def test_taps_too_short_for_a_motor_are_not_counted() -> None:
+def test_a_few_taps_too_short_for_a_motor_show_nothing() -> None:
     bench = Bench(pace=0.0)
-    for _ in range(100):
-        bench.press(PLUS, LEAST_RUN_S - STEP_S, 0.5)
+    for _ in range(STOOD_STARTS - 1):
+        bench.press(PLUS, LEAST_RUN_S - STEP_S, 0.7)
     assert bench.faults == []
+
+
+def test_a_motor_that_is_started_again_and_again_near_its_target_is_told() -> None:
+    bench = Bench(pace=0.0)
+    for _ in range(STOOD_STARTS):
+        bench.press(PLUS, LEAST_RUN_S - STEP_S, 0.7)
+    assert bench.kinds == [FaultKind.STANDS_STILL]
+
+
+def test_after_a_run_the_next_start_waits_until_the_readings_can_show_it() -> None:
+    bench = Bench(pace=0.0)
+    bench.press(PLUS, 0.1, 0.3)
+    assert bench.settles
+    bench.look(0.4)
+    assert not bench.settles
+
+
+def test_after_a_run_that_has_moved_the_axis_the_next_start_does_not_wait() -> None:
+    bench = Bench(pace=1.0)
+    bench.press(PLUS, 0.4, 0.1)
+    assert not bench.settles
