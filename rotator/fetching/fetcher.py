@@ -78,7 +78,7 @@ class Fetcher:
             self._tell_waiting(address, now)
 
     def _tell_waiting(self, address: str, now: Moment) -> None:
-        """An earlier run has asked in vain, and servers block who asks again too soon."""
+        """Log that an earlier run asked in vain, and the wait: servers block a computer that asks again too soon."""
         asked, wait_s = self._fetches.get(address), self._left_s(address, now)
         if asked is not None and asked.trouble and wait_s > 0:
             log.warning(
@@ -99,7 +99,7 @@ class Fetcher:
     def _fetch(self, address: str, now: Moment) -> bool:
         path = file_of(address, self._folder)
         before = self._fetches.get(address) or Asked(address, now.utc_s, LEAST_S)
-        if not path.exists():  # a person has removed it: what it held does not count
+        if not path.exists():  # a person has removed the file: its old content does not count
             before = replace(before, sets=0, shrunk=0, etag="", modified="")
         asked = replace(before, asked_utc_s=now.utc_s, wait_s=LEAST_S, trouble=UNANSWERED, whole_host=False)
         with self._store.alone():
@@ -126,7 +126,7 @@ class Fetcher:
         return not answer.trouble
 
     def _learn(self, now: Moment) -> None:
-        """What another box has asked meanwhile that keeps its files in the same folder."""
+        """Read the requests of another box that keeps its files in the same folder."""
         for address, each in (self._store.load() or {}).items():
             mine = self._fetches.get(address)
             if mine is None or (each != mine and each.asked_utc_s >= mine.asked_utc_s):

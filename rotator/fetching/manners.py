@@ -1,8 +1,8 @@
-"""How often a server of elements may be asked, and how long it is left alone after which answer.
+"""How often a server of elements may be asked, and the wait after each kind of answer.
 
 Servers block a computer that asks too often, and a box may be started a hundred times an hour. So the time since the
-last question is never guessed too long: of a time between two runs an hour is taken off, in case the clock has jumped,
-and in this run the clock of the day does not count at all. Knows no file and no network.
+last request is never assumed too long. From a time between two runs one hour is subtracted, in case the clock has
+jumped. Within a run only the computer's running time counts. Knows no file and no network.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from urllib.parse import urlsplit
 from rotator.store.fetches import Asked
 
 EVERY_S = 6 * 3600.0
-"""After a good answer."""
+"""Seconds of wait after a good answer."""
 LEAST_S = 2 * 3600.0
-"""No address is asked again sooner, also after a failure or a restart: elements do not change sooner."""
+"""Seconds: no address is asked again sooner, even after a failure or a restart. Elements do not change sooner."""
 REFUSED_S = 24 * 3600.0
 JUMP_S = 3600.0
-"""The clock may have been set by so much between two runs."""
+"""Seconds by which the clock may have been changed between two runs."""
 _WHOLE_HOST = (HTTPStatus.FORBIDDEN, HTTPStatus.TOO_MANY_REQUESTS)
 _FOR_NOW = (HTTPStatus.REQUEST_TIMEOUT, HTTPStatus.TOO_EARLY)
 
@@ -34,18 +34,18 @@ class Moment:
 
 
 def wait_s(status: int) -> float:
-    """How long an address is left alone after this answer; 0: there was none."""
+    """Seconds to wait after this HTTP status; 0: there was no answer."""
     refused = HTTPStatus.BAD_REQUEST <= status < HTTPStatus.INTERNAL_SERVER_ERROR and status not in _FOR_NOW
     return REFUSED_S if refused else LEAST_S
 
 
 def concerns_host(status: int) -> bool:
-    """The server wants no more questions from here, at whatever address."""
+    """Whether the server refuses each further request from here, for any address."""
     return status in _WHOLE_HOST
 
 
 def left_s(asked: Asked, begun: Moment, now: Moment, asked_awake_s: float | None) -> float:
-    """How long the address is to be left alone still; zero or less: it may be asked.
+    """Seconds until the address may be asked again; zero or less: now.
 
     `begun`: the first moment of this run at which the clock was right. `asked_awake_s`: when it was asked in this run;
     None: that was an earlier one.
@@ -57,7 +57,7 @@ def left_s(asked: Asked, begun: Moment, now: Moment, asked_awake_s: float | None
 
 
 def concerned(address: str, fetches: Iterable[Asked]) -> list[Asked]:
-    """The earlier questions for which this address has to wait: its own, and those that concern its server."""
+    """The earlier requests for which this address has to wait: its own, and those that concern its server."""
     host = urlsplit(address).hostname
     return [
         each

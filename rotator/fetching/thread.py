@@ -1,6 +1,6 @@
-"""The thread that fetches elements: looks now and then whether an address is due, and waits for its answer.
+"""The thread that fetches elements: it checks again and again whether an address is due, and waits for its answer.
 
-Knows real time. Nothing else waits for this thread, and the download itself is in a process that it can end.
+Knows real time. No other part waits for this thread. The download runs in a process that it can end.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ LOOK_S = 5.0
 
 
 class FetchThread:
-    """`process`: in which the fetcher asks. `tell` is called when a file is new."""
+    """`process`: in which the fetcher downloads. `tell` is called when a file is new."""
 
     def __init__(self, fetcher: Fetcher, process: OwnProcess, tell: Callable[[], None]) -> None:
         self._fetcher = fetcher
@@ -30,7 +30,7 @@ class FetchThread:
         self._thread.start()
 
     def stop(self) -> None:
-        """Returns when the thread has ended; a download that is under way is given up."""
+        """Returns when the thread has ended. A present download is given up."""
         self._stopping.set()
         self._process.close()
         if self._thread.is_alive():

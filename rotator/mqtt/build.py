@@ -1,6 +1,6 @@
 """MQTT's part of the composition root: from `[mqtt]` to a thread that is not started yet.
 
-Knows the parts and what each is given. Speaks with no broker.
+Knows the parts and the arguments of each. Does not speak with a broker.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from rotator.runtime.loop import ControlLoop
 
 
 def build_mqtt(config: Config, loop: ControlLoop, mount: Mount, tracking: Tracking | None) -> MqttThread | None:
-    """None where the file names no broker."""
+    """None: the configuration has no broker."""
     table = config.mqtt
     if table.broker is None:
         return None

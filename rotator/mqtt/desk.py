@@ -39,7 +39,7 @@ class Desk:
         if self._may != "move" and not (method.free and self._may == "stop"):
             return _MAY_STOP.format(self._may, _WORDS[self._may])
         try:
-            # A stop counts whatever the message says.
+            # A stop counts with any content.
             return self._operating.do(method.command({} if method.free else _values(payload)))
         except WrongValuesError as reason:
             return str(reason)

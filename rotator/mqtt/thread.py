@@ -1,7 +1,7 @@
-"""The thread that speaks with the broker: it logs in, tells the status, hands messages on, and tries again.
+"""The thread that speaks with the broker: it logs in, sends the status, passes messages on, and tries again.
 
-Knows the library and the connection. Nothing else of the box waits for it; while the broker is away nothing comes from
-there, and what a message has begun without an end has ended.
+Knows the library and the connection. No other part of the box waits for it. When the broker is lost no message can
+come, so motion that a message began without an end is ended.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ LOOK_S, TELL_EVERY_S = 0.1, 1.0
 KEEP_ALIVE_S = 15
 CONNECT_S = 5.0
 ANSWERED_S = 10.0
-"""A broker that has not let the box in after this time does not."""
+"""Seconds: longest wait for the broker's answer to the login."""
 FIRST_WAIT_S, LONGEST_WAIT_S = 1.0, 60.0
 JOIN_S = 2.0
 NO_LIBRARY = (
@@ -47,7 +47,8 @@ class Broker:
 
 
 class MqttThread:
-    """`status`: the one to tell, as an object. `desk`: does what messages ask. `left`: the connection has ended."""
+    """`status` gives the status to send, as an object. `desk` carries out messages. `left`: called when the connection
+    has ended."""
 
     def __init__(
         self,
@@ -73,7 +74,7 @@ class MqttThread:
         self._let_in = False
         self._refused = ""
         self._trouble = ""
-        """Why the last connection has failed: the log has each new reason once."""
+        """Why the last connection failed. The log has each new reason once."""
 
     def start(self) -> None:
         self.wire.state = "connecting"
@@ -136,7 +137,7 @@ class MqttThread:
         client.loop(LOOK_S)
 
     def _tell(self, client: Client, told: str) -> str:
-        """Tell the status where it has changed. Returns what has been told."""
+        """Send the status if it has changed. Returns the status that was sent last."""
         text = json.dumps(self._status(), ensure_ascii=False)
         if text != told:
             client.publish(self._topics.status, text, retain=True)

@@ -1,6 +1,6 @@
-"""The topics of the box and the messages on them; what Home Assistant is told of it.
+"""The topics of the box and the messages on them, and the description of the box for Home Assistant.
 
-Knows names and values. Knows no broker, and does not know what a method does.
+Knows names and values. Does not know a broker, nor the effect of a method.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from rotator import __version__
 
 ONLINE, OFFLINE = "online", "offline"
 PREFIX = "homeassistant"
-"""Where Home Assistant looks."""
+"""The topic on which Home Assistant searches for devices."""
 _ANGLE = {"unit_of_measurement": "°", "state_class": "measurement", "suggested_display_precision": 1}
 _SENSORS: dict[str, dict[str, Any]] = {
     "azimuth": {"name": "Azimuth", "value_template": "{{ value_json.azimuth.angle_deg }}", "icon": "mdi:compass"},
@@ -34,12 +34,12 @@ _BUTTONS = {
     "resume": ("Let it move again", "mdi:play-circle", ("move",)),
     "park": ("Park", "mdi:parking", ("move",)),
 }
-"""By method: its name, its picture, and with which rights it is there."""
+"""For each method: its name, its picture, and the rights that it needs."""
 
 
 @dataclass(frozen=True, slots=True)
 class Topics:
-    """`base`: the first words of all of them."""
+    """`base`: the first words of each topic."""
 
     base: str
 
@@ -57,11 +57,11 @@ class Topics:
 
     @property
     def orders(self) -> str:
-        """What the box listens to: a method's name is the last word."""
+        """The topics that the box listens to. The last word is a method's name."""
         return f"{self.base}/do/+"
 
     def method(self, topic: str) -> str:
-        """The name of the method that a message on this topic asks for."""
+        """The name of the method of a message on this topic."""
         return topic.removeprefix(f"{self.base}/do/")
 
     def order(self, method: str) -> str:
@@ -86,5 +86,5 @@ def discovery(topics: Topics, may: str) -> Iterator[tuple[str, str]]:
         if may in rights:
             yield entity("button", method, {"name": name, "icon": icon, "command_topic": topics.order(method)})
         else:
-            # What it had before, with more rights, is gone.
+            # Remove the buttons from an earlier start with more rights.
             yield f"{PREFIX}/button/{box}/{method}/config", ""

@@ -1,7 +1,7 @@
-"""The satellites that are known, by the names that people say, read from files of elements.
+"""The known satellites, by the names that people use, read from files of elements.
 
-Knows files, folders and patterns, when a file has changed, and which of several sets is the newest. The only file of
-this room that reads a disk. A file that is wrong is named; what was read from it before stays.
+Knows files, folders and patterns, when a file has changed, and which of several sets is the newest. No other file in
+`rotator.orbits` reads a disk. A wrong file is reported; the elements read from it before stay.
 """
 
 from __future__ import annotations
@@ -20,23 +20,23 @@ from rotator.orbits.elements import Elements, printable
 from rotator.orbits.moments import DAY_S
 
 SUFFIXES = (".tle", ".txt", ".json", ".csv")
-"""What is read from a folder; a file named in full may have any name."""
+"""The files that are read from a folder. A file named in full may have any name."""
 MOST_BYTES = 64_000_000
 """The whole public catalogue as JSON has 20 MB."""
 NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
 STILL_READ = "the files of elements are still being read: try again in a moment"
 _PARENTHESES = re.compile(r"\(([^)]*)\)")
 _AHEAD_S = 10 * DAY_S
-"""Elements are written for today, or for some days ahead."""
+"""Days that an epoch may be ahead of its file: elements are written for today, or for some days ahead."""
 _Stamp = tuple[int, int]
 
 
 class Unknown(ValueError):  # noqa: N818 - a sentence about a name
-    """No satellite, or more than one, has that name. The text tells which are near."""
+    """No satellite, or more than one, has that name. The text has the similar names."""
 
 
 Found = list[Elements | str]
-"""The sets of a file; in place of one that is wrong a sentence."""
+"""The sets of a file; a sentence in place of each wrong set."""
 Read = Callable[[Path], Found]
 """Raises OSError, ValueError; RuntimeError where it reads in another process, and that fails."""
 
@@ -48,7 +48,7 @@ def read_file(path: Path) -> Found:
 
 @dataclass(frozen=True, slots=True)
 class _Kept:
-    """What was read from a file, the file's time and size then, and its time when `sets` were read."""
+    """The content of a file, the file's time and size at the last read, and its time when `sets` were read."""
 
     stamp: _Stamp
     written_s: float
@@ -154,21 +154,21 @@ class Catalogue:
             return _Kept((0, 0), written_s, earlier, (f"{path}: cannot be read ({fault.strerror})",))
         except (ValueError, RuntimeError) as fault:
             if not isinstance(fault, (ValueError, RecursionError)):
-                stamp = 0, 0  # not the file's fault: the next time it may be read
+                stamp = 0, 0  # not the file's fault: try again next time
             text = "no text" if isinstance(fault, UnicodeDecodeError) else str(fault)
             return _Kept(stamp, written_s, earlier, (f"{path}: {printable(text)}" + _stays(earlier),))
         sets = tuple(each for each in found if isinstance(each, Elements))
         wrong = tuple(f"{path}: {printable(each)}" for each in found if isinstance(each, str))
         if not found:
             wrong = (f"{path}: holds no elements" + _stays(earlier),)
-        if wrong:  # perhaps it is only half written: what it does not have any more stays
+        if wrong:  # perhaps half written: keep the sets that it no longer has
             has = {each.catalogue_number for each in sets}
             sets += tuple(each for each in earlier if each.catalogue_number not in has)
         return _Kept(stamp, about.st_mtime, sets, wrong)
 
 
 def _stamp(path: Path) -> _Stamp | None:
-    """None: the file cannot be looked at."""
+    """Time and size of a file. None: not accessible."""
     try:
         about = path.stat()
     except OSError:
@@ -186,7 +186,7 @@ def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
 
 
 def parse(text: str) -> Iterable[Elements | str]:
-    """Elements in any form; in place of a set that is wrong a sentence. Raises ValueError."""
+    """Elements in any form; a sentence in place of each wrong set. Raises ValueError."""
     begin = text.lstrip()[:1]
     if begin in ("[", "{"):
         return omm.read_json(text)
@@ -200,7 +200,7 @@ def parse(text: str) -> Iterable[Elements | str]:
 
 
 def files(places: Sequence[str], to_come: Sequence[Path] = ()) -> tuple[list[Path], list[str]]:
-    """The files that are there now, and a sentence for each place without one."""
+    """The existing files, and a sentence for each place without one."""
     found: dict[Path, None] = {}
     missing = []
     for place in places:
@@ -232,14 +232,14 @@ def _inside(folder: Path) -> list[Path]:
 
 
 def _spoken(elements: Elements) -> set[str]:
-    """`OSCAR 7 (AO-7)` is said whole, or as one of the two; `ISS (ZARYA)` too. And the number, also as in a TLE."""
+    """The names that people may use for it. `OSCAR 7 (AO-7)`: whole, or one of the two. And the number, as in a TLE."""
     names = {elements.name, *_PARENTHESES.findall(elements.name), _PARENTHESES.sub("", elements.name)}
     numbers = {str(elements.catalogue_number), plain(tle.alpha5(elements.catalogue_number))}
     return ({plain(name) for name in names} | numbers) - {""}
 
 
 def plain(name: str) -> str:
-    """The name without capitals, hyphens and blanks: as names are compared."""
+    """The name without capitals, hyphens and blanks, for comparison."""
     return "".join(each for each in name.casefold() if each.isalnum())
 
 

@@ -1,4 +1,4 @@
-"""The sky over the station: where Sun, Moon, planets and stars stand, and which place among the stars a direction is.
+"""The sky over the station: directions of Sun, Moon, planets and stars, and which place among the stars is where.
 
 Knows the station's place, and asks the clock that it is given. Precession, nutation and sidereal time are
 astronomy-engine's. Does not know the rotor, or bytes. Angles are in degrees. Targets are seen through air where the
@@ -23,7 +23,7 @@ DEG_PER_H = 15.0
 
 
 class Equinox(Enum):
-    """Whose equator and equinox right ascension and declination are counted from."""
+    """The equator and equinox from which right ascension and declination are counted."""
 
     J2000 = "J2000"
     OF_DATE = "JNow"
@@ -81,7 +81,7 @@ class Body:
         return through_air(Sight(seen.azimuth % 360.0, seen.altitude, place.dist * astronomy.KM_PER_AU), self._site)
 
     def late_s(self, _utc_s: float) -> float:
-        """Known for centuries."""
+        """Zero: its motion is known for centuries."""
         return 0.0
 
 

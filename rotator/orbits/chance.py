@@ -1,7 +1,7 @@
-"""How probable it is that a stream which follows no satellite fits one as well: whether its orders tell enough.
+"""The probability that a stream fits a satellite by chance, and so whether its orders are enough to recognise one.
 
-Knows how antennas are turned, how often satellites rise, and which probability is small enough. Does not know which
-satellites there are, nor what names them.
+Knows the usual motions of antennas, how often satellites rise, and which probability is small enough. Does not know
+the satellites or their names.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, Sam
 
 TRAVEL_ROUNDINGS = 3.0
 LEAST_TRAVEL_DEG = 0.5
-"""Orders tell course and speed when the satellite has moved as far as this. As it rises less will do: hardly anything
-else begins low in the sky there and then."""
+"""Degrees that a satellite must have moved before its orders show course and speed. At its rise less is enough: hardly
+any other motion begins at that place and time low in the sky."""
 RISES_DEG = 5.0
 RISE_EVERY_S = 10_800.0
-"""The mean time between two rises of a satellite near the earth."""
+"""Mean seconds between two rises of a satellite near the earth."""
 RISING_SOON_DEG, JUST_RISEN_DEG, RISE_BIAS_DEG = -0.1, 0.15, 0.1
-"""A program's first order of a pass finds the satellite between these elevations, and its azimuth this near."""
+"""Degrees: at the first order of a pass the satellite is between these elevations, and its azimuth this near."""
 SKY_SQUARE_DEG = 20_627.0
-"""Above the horizon."""
+"""Square degrees of the sky above the horizon."""
 RATES_SQUARE_DPS = math.pi
-"""What moves in the sky without following a satellite does so at up to 1°/s, in any direction."""
+"""Square of the speeds: a target that is no satellite moves at up to 1°/s, in any direction."""
 LINE_CHANCE = 1e-5
-"""The chance of all satellites together that a stream is accepted which moves, and follows none."""
+"""Allowed chance, for all satellites together, that a moving stream without a satellite is accepted."""
 STANDING_CHANCE = 1.5e-4
-"""The same of a stream that stands at the horizon from its beginning on."""
+"""The same for a stream that stands at the horizon from its beginning on."""
 LIKELY_SHARE, MOST_LIKELY = 0.9, 12
 """The satellites that this station uses have this share of `STANDING_CHANCE`, and all others have the rest. Among more
 satellites no share is large enough."""
@@ -38,7 +38,7 @@ satellites no share is large enough."""
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """How many satellites may be meant: in all, of those that the station uses, and of those that are up now."""
+    """The number of possible satellites: in all, of those that the station uses, of those that are up now."""
 
     all: int
     likely: int
@@ -54,7 +54,7 @@ class Known:
 
 
 def has_moved(orders: Sequence[Heard]) -> bool:
-    """A target that stands is no satellite, but for one that has just risen."""
+    """Whether the target has moved: one that stands is no satellite, unless it has just risen."""
     return any(before.direction != after.direction for before, after in pairwise(orders))
 
 

@@ -14,7 +14,7 @@ AXIS_M = 6_378_137.0
 FLATTENING = 1 / 298.257223563
 _SQUARED = FLATTENING * (2 - FLATTENING)
 NEAREST_M = 1.0
-"""A place nearer than this has no direction."""
+"""Metres: a place nearer than this has no direction."""
 
 Vector = tuple[float, float, float]
 """Metres from the middle of the earth: to longitude 0, to longitude 90° east, to the north pole."""
@@ -28,7 +28,7 @@ class Site:
     longitude_deg: float
     altitude_m: float = 0.0
     refraction: bool = field(default=False, kw_only=True)
-    """Targets of the sky are seen through its air."""
+    """Whether targets in the sky are seen through air, with refraction."""
 
     @property
     def without_air(self) -> Site:
@@ -36,7 +36,7 @@ class Site:
 
 
 class Horizon:
-    """What is where, around a station."""
+    """The directions around a station."""
 
     def __init__(self, station: Site) -> None:
         self._here = geocentric(station)
@@ -45,7 +45,7 @@ class Horizon:
         self._cos_lon, self._sin_lon = math.cos(longitude), math.sin(longitude)
 
     def sight(self, place: Vector) -> Sight:
-        """How the station sees a place; the station's own is straight above it."""
+        """The direction of a place from the station; its own place is straight above it."""
         x, y, z = (there - here for there, here in zip(place, self._here, strict=True))
         outward = x * self._cos_lon + y * self._sin_lon
         east = y * self._cos_lon - x * self._sin_lon

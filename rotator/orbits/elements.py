@@ -1,4 +1,4 @@
-"""Orbital elements: what a satellite's orbit was at one moment, and whether the numbers can be an orbit at all.
+"""Orbital elements: a satellite's orbit at one time, and whether the numbers can be an orbit at all.
 
 Knows the quantities that sgp4 needs, their units and their bounds. Does not know files, or the forms in which elements
 are written: those are in `omm` and `tle`.
@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from rotator.orbits.moments import DAY_S
 
 LEAST_REV_PER_DAY, MOST_REV_PER_DAY = 0.01, 18.0
-"""Slower, and the Moon would take the satellite away; faster, and it would fly inside the atmosphere."""
+"""Revolutions a day. A slower satellite would be lost to the Moon; a faster one would be inside the atmosphere."""
 LONGEST_NAME = 40
 
 
@@ -62,10 +62,10 @@ class Elements:
             raise NotAnOrbit(f"{self.catalogue_number} is no catalogue number of one to nine digits")
 
     def age_days(self, utc_s: float) -> float:
-        """How far the epoch is away, in either direction."""
+        """Days from the epoch, in either direction."""
         return abs(utc_s - self.epoch_utc_s) / DAY_S
 
 
 def printable(text: str) -> str:
-    """Without the characters that a terminal would obey."""
+    """The text without the characters that a terminal would obey."""
     return "".join(filter(str.isprintable, text))

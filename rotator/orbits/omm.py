@@ -27,11 +27,11 @@ OPTIONAL = {
     "MEAN_MOTION_DOT": "mean_motion_dot",
     "MEAN_MOTION_DDOT": "mean_motion_ddot",
 }
-"""Without them the orbit loses no height: good enough for a few days."""
+"""Optional fields. Without them the orbit loses no height, which is good enough for a few days."""
 
 
 def read_json(text: str) -> Iterator[Elements | str]:
-    """Each message of a list, or a single one; in place of a message that is wrong a sentence with its number.
+    """Each message of a list, or a single one; a sentence with its number in place of each wrong message.
 
     Raises ValueError where the text is no such list.
     """
@@ -56,7 +56,7 @@ def read_json(text: str) -> Iterator[Elements | str]:
 
 
 def read_csv(text: str) -> Iterator[Elements | str]:
-    """Each line below the heading; in place of a line that is wrong a sentence with its number.
+    """Each line below the heading; a sentence with its number in place of each wrong line.
 
     Raises ValueError without a heading of OMM's fields.
     """
@@ -80,7 +80,7 @@ def read_csv(text: str) -> Iterator[Elements | str]:
 
 
 def message(elements: Elements) -> dict[str, object]:
-    """As `read_json` reads it."""
+    """The elements in the form that `read_json` reads."""
     epoch = datetime.fromtimestamp(elements.epoch_utc_s, UTC).isoformat(timespec="microseconds")
     return {
         "OBJECT_NAME": elements.name,

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from rotator.orbits.sight import NotThere, Sight, Target
 
 LOOK_S = 60.0
-"""Elevation of the lowest orbits has its highs 90 minutes apart; between two looks it is nearly a parabola."""
+"""Seconds between two looks. The highs of the lowest orbits are 90 minutes apart; between two looks the elevation is
+nearly a parabola."""
 EXACT_S = 0.01
 LONGEST_S = 86_400.0
-"""What is up for longer has no rise or no set: a geostationary satellite, the polar Sun."""
+"""Seconds: a target that is up for longer has no rise or no set: a geostationary satellite, the polar Sun."""
 _GOLDEN = (5**0.5 - 1) / 2
 
 
@@ -34,9 +35,9 @@ class Pass:
 
 
 def passes(target: Target, from_s: float, until_s: float, least_deg: float = 0.0) -> Iterator[Pass]:
-    """Every pass of which a part is between the two moments, in order, each told whole.
+    """Each pass that lies at least partly between the two times, in order, with its whole length.
 
-    `least_deg`: passes that do not rise so high are left out. A satellite that comes down rises no more.
+    `least_deg`: passes that stay lower are left out. A satellite that has decayed has no passes.
     """
     height = _height(target)
     on_s = from_s if height(from_s) > 0 else None
@@ -60,7 +61,7 @@ def passes(target: Target, from_s: float, until_s: float, least_deg: float = 0.0
 
 
 def _next_rise(height: Callable[[float], float], from_s: float, until_s: float) -> tuple[float, float] | None:
-    """A moment at which it is down and a later one at which it is up, with one rise between them, before `until_s`."""
+    """A time at which it is down and a later one at which it is up, with one rise between them, before `until_s`."""
     look_s, before, here = from_s, height(from_s - LOOK_S), height(from_s)
     while look_s < until_s:
         after = height(look_s + LOOK_S)
@@ -95,7 +96,7 @@ def _pass(target: Target, height: Callable[[float], float], aos_s: float | None,
 
 
 def _last_down_s(height: Callable[[float], float], from_s: float) -> float | None:
-    """A moment within the day before at which it was down; None: there was none."""
+    """A time within the day before at which it was down; None: it was always up."""
     at_s = from_s
     while at_s > from_s - LONGEST_S:
         at_s -= LOOK_S
@@ -116,7 +117,7 @@ def _crossing_s(height: Callable[[float], float], down_s: float, up_s: float) ->
 
 
 def _highest_s(height: Callable[[float], float], from_s: float, until_s: float) -> float:
-    """When it is highest in a while with one high (golden section)."""
+    """The time of the highest elevation in an interval with one high (golden section)."""
     a, b = until_s - _GOLDEN * (until_s - from_s), from_s + _GOLDEN * (until_s - from_s)
     height_a, height_b = height(a), height(b)
     while until_s - from_s > EXACT_S:
@@ -132,7 +133,7 @@ def _highest_s(height: Callable[[float], float], from_s: float, until_s: float) 
 
 
 def _height(target: Target) -> Callable[[float], float]:
-    """Elevation; a satellite that has come down is under the horizon for good."""
+    """The elevation by time. A satellite that has decayed is always below the horizon."""
 
     def height(utc_s: float) -> float:
         try:

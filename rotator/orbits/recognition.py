@@ -37,25 +37,25 @@ from rotator.orders import Aim, Calibrate, ClearTimed, Fly, Leave, Order, Releas
 
 ORDERS = 8
 FEW_ORDERS, FEW_S = 3, 8.0
-"""This many orders tell a satellite, or `FEW_ORDERS` in this time where they come slowly."""
+"""Orders needed to recognise a satellite. If they come slowly, `FEW_ORDERS` in this time are enough."""
 KEPT = 30
-"""A stream that comes upon a path later must agree with it for this many orders: any line crosses some path."""
+"""Orders for which a stream must agree with a path that it meets later, because any line crosses some path."""
 AGAIN_S = 2.0
 """Seconds until the next fit if `KEPT` orders have shown no satellite."""
 LONGEST_GAP_S = 20.0
-"""Orders further apart do not belong together. Some programs send only when a whole degree has changed."""
+"""Seconds: orders further apart are of two streams. Some programs send only when a whole degree has changed."""
 THIN_S = 0.9
-"""If orders come faster, one in this time counts."""
+"""Seconds: if orders come faster, only one in this time counts."""
 FASTEST_DPS = 2.0
-"""No satellite crosses the sky faster. Orders that do begin a new stream."""
+"""Degrees a second: no satellite crosses the sky faster. Faster orders begin a new stream."""
 SIEVE_EVERY_S = 10.0
 SIEVE_DEG = 2 * FASTEST_DPS * SIEVE_EVERY_S
-"""A satellite further from the order than this is not meant before the next sieving."""
+"""Degrees: a satellite further from the order than this is left out until the next sieving."""
 
 
 @dataclass(frozen=True, slots=True)
 class Recognised:
-    """The orders of this source follow this satellite. A flight that takes their place is posted as `source`'s own."""
+    """The orders of this source follow this satellite. A flight that replaces them is posted as `source`'s own."""
 
     source: Source
     satellite: Target
@@ -64,7 +64,7 @@ class Recognised:
 
 @dataclass(frozen=True, slots=True)
 class Departed:
-    """The orders of this source follow this satellite no longer."""
+    """The orders of this source have left this satellite."""
 
     source: Source
     satellite: Target
@@ -79,18 +79,18 @@ class StreamWatch:
         self._satellites = tuple(satellites)
         self._wanted = likely
         self._used: tuple[str, ...] = ()
-        """Names of those that were recognised or flown, the latest first."""
+        """Names of the satellites that were recognised or flown, the latest first."""
         self._listeners: dict[Source, _Listener] = {}
         self._planners: set[Source] = set()
-        """Programs that plan by themselves: they name the turn of the overlap, or flip."""
+        """Sources that plan by themselves: they name the turn of the overlap, or flip."""
 
     def know(self, satellites: Iterable[Target], likely: Sequence[str] = ()) -> None:
-        """The elements have changed. A satellite that is followed is followed on by its old elements."""
+        """The elements have changed. A followed satellite keeps its old elements."""
         self._satellites = tuple(satellites)
         self._wanted = likely
 
     def used(self, name: str) -> None:
-        """The station follows this satellite now: its next pass is likely to be followed, too."""
+        """The station follows this satellite now, so its next pass is likely too."""
         self._used = tuple(dict.fromkeys((name, *self._used)))[:MOST_LIKELY]
 
     @property
@@ -103,7 +103,7 @@ class StreamWatch:
         return listener.recognised if listener else None
 
     def hear(self, source: Source, order: Order, utc_s: float) -> Recognised | Departed | None:
-        """An order came at this moment, in seconds since 1970. Returns what is new; None: nothing is."""
+        """An order came at this time, in seconds since 1970. Returns a new recognition or its end; None: no change."""
         match order:
             case Aim(azimuth_deg, elevation_deg, engaged=True, place=False) if (
                 azimuth_deg is not None
@@ -145,13 +145,13 @@ class _Listener:
         self._source = source
         self._orders: deque[Heard] = deque(maxlen=KEPT)
         self._all_kept = True
-        """No order has been dropped since the stream began."""
+        """Whether no order was dropped since the stream began."""
         self._near: list[SampledPath] = []
         self._known = Known(0, 0, 0)
         self._likely: Collection[str] = ()
         self._sieved_s = -math.inf
         self._next_s = -math.inf
-        """The moment of the next fit, at the earliest."""
+        """Earliest time of the next fit."""
         self._followed: SampledPath | None = None
         self._clocks_s: tuple[float, ...] = ()
         """The possible leads of the program's clock, by the orders until now."""
@@ -189,7 +189,7 @@ class _Listener:
         return order.direction.apart_deg(last.direction) > FASTEST_DPS * (gap_s + UNSTEADY_S) + 2.0
 
     def _sieve(self, order: Heard, satellites: Sequence[Target]) -> None:
-        """Keep those satellites that may come where the orders are."""
+        """Keep the satellites that may come near the orders."""
         if order.utc_s - self._sieved_s < SIEVE_EVERY_S:
             return
         self._sieved_s = order.utc_s
@@ -213,7 +213,7 @@ class _Listener:
         if not _are_enough(told):
             return None
         if not has_moved(told):
-            # In whole degrees a satellite may stand for 15 s after its rise: then only place and moment tell it.
+            # In whole degrees a satellite may stand for 15 s after its rise. Then only place and time identify it.
             allowed = self._known.standing_chance(likely=path.satellite.name in self._likely)
             if rise_chance(path, orders, clocks_s, rounding) > allowed:
                 return None
@@ -228,14 +228,14 @@ class _Listener:
     def _line_chance(
         self, path: SampledPath, told: Sequence[Heard], clocks_s: Sequence[float], rounding: float
     ) -> float:
-        """Of all satellites together: by where the orders are, or by where and when they begin."""
+        """The chance for all satellites together: by the orders' places, or by place and time of their begin."""
         return min(
             self._known.up * line_chance(path, told, rounding),
             self._known.all * rising_line_chance(path, told, clocks_s, rounding),
         )
 
     def _departed(self, order: Heard) -> Departed | None:
-        """Whether an order, as the program's clock may be, is too far from the path that it has followed."""
+        """Whether an order is too far from the followed path, for each possible error of the program's clock."""
         if self.recognised is None or self._followed is None:
             return None
         path, stream = self._followed, self.recognised.stream
@@ -256,7 +256,7 @@ def _are_enough(orders: Sequence[Heard]) -> bool:
 
 
 def _up(satellite: Target, utc_s: float) -> Sight | None:
-    """None: it is too far below the horizon to be meant before the next sieving."""
+    """Its direction. None: too far below the horizon to matter before the next sieving."""
     try:
         sight = satellite.sight(utc_s)
     except NotThere:

@@ -20,19 +20,19 @@ from rotator.orbits.sight import NotThere, Sight
 _SGP4_EPOCH_UTC_S = -631_238_400.0
 """31 December 1949, from which sgp4 counts days, in seconds since 1970."""
 _OF_NO_NUMBER = 1
-"""sgp4 keeps catalogue numbers of five characters. It computes nothing from them."""
+"""A number in place of the real one: sgp4 allows only five characters, and computes nothing from them."""
 _EARTH_GM_KM3_S2 = 398_600.8
 """As in WGS 72, which SGP4 is made for."""
 
 UT1_MINUS_UTC = ((2024, 0.0), (2025, 0.04), (2026, 0.06), (2028, 0.13), (2030, 0.13), (2032, 0.1), (2034, 0.03))
-"""Years and seconds: how far the earth is ahead of the clocks, as measured, and from 2026 on as predicted by the IERS
+"""Years, and seconds by which the earth's rotation is ahead of the clocks: measured; from 2026 on predicted by the IERS
 and by long-term curves. A tenth of a second is 0.005° for a satellite 500 km overhead."""
 _YEAR_S = 365.25 * DAY_S
 
 ALONG_KM_FRESH = 0.7
 ALONG_KM_A_DAY = 0.8
 DRAG_UNCERTAIN = 0.2
-"""How wrong an element set is along the orbit: at its epoch, more each day, and this share of what drag has done."""
+"""Error of an element set along the orbit: at its epoch, its growth each day, and its share of the effect of drag."""
 
 
 class Satellite:
@@ -52,7 +52,7 @@ class Satellite:
 
     @property
     def period_s(self) -> float:
-        """One revolution."""
+        """Seconds of one revolution."""
         return DAY_S / self.elements.mean_motion_rev_per_day
 
     def sight(self, utc_s: float) -> Sight:

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target
 
 CLOCKS_S = tuple(quarter / 4 for quarter in range(-24, 23))
-"""How far ahead of UTC the program's clock may be: 5 s either way. It may send what it computed up to a second ago."""
+"""Possible leads of the program's clock over UTC: 5 s either way. It may send a direction that is a second old."""
 UNSTEADY_S = 0.3
 """Seconds by which orders may come too early or too late."""
 BIAS_DEG = 0.3
 """Degrees on the sky for the whole stream: error of other elements, or of another place of the station."""
 LEAST_DEG = 0.02
-"""No order is taken for more exact."""
+"""Degrees: no order is taken as more exact than this."""
 RISING_DEG = -0.3
 """Degrees: below this elevation of the path, an order for the horizon shows nothing about the satellite."""
 FINEST_DEG = 0.01
@@ -41,7 +41,7 @@ class Heard:
 
 @dataclass(frozen=True, slots=True)
 class Second:
-    """Where the satellite is when a second begins, and how it moves until the next."""
+    """The direction of a satellite at the begin of a second, and its motion until the next."""
 
     azimuth_deg: float
     elevation_deg: float
@@ -57,7 +57,7 @@ class SampledPath:
         self._seconds: dict[int, Second] = {}
 
     def at(self, utc_s: float) -> Second:
-        """As it moves at that moment."""
+        """Direction and motion in the second of this time."""
         number = math.floor(utc_s)
         second, share = self._second(number), utc_s - number
         return Second(
@@ -68,7 +68,7 @@ class SampledPath:
         )
 
     def sight(self, utc_s: float) -> Sight:
-        """As a program sends it: no elevation below zero."""
+        """The direction as a program sends it: no elevation below zero."""
         seen = self.at(utc_s)
         return Sight(seen.azimuth_deg % FULL_TURN_DEG, max(0.0, seen.elevation_deg), math.inf)
 
@@ -95,12 +95,12 @@ class SampledPath:
 
 
 def turn_deg(from_deg: float, to_deg: float) -> float:
-    """The shorter way round."""
+    """The difference of two azimuths, the shorter way round."""
     return (to_deg - from_deg + 180.0) % FULL_TURN_DEG - 180.0
 
 
 def rounding_deg(orders: Sequence[Heard]) -> float:
-    """What the orders are rounded to: whole degrees, tenths or hundredths."""
+    """The rounding of the orders: whole degrees, tenths or hundredths."""
     angles_deg = [angle for each in orders for angle in (each.azimuth_deg, each.elevation_deg)]
     for rounding in (1.0, 0.1):
         if all(abs(angle / rounding - round(angle / rounding)) < 1e-6 for angle in angles_deg):
@@ -109,9 +109,9 @@ def rounding_deg(orders: Sequence[Heard]) -> float:
 
 
 def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
-    """How far ahead the program's clock may be, so that its orders are this path to their rounding. Raises NotThere."""
+    """The leads of the program's clock with which this path, rounded, gives the orders. Raises NotThere."""
     told = telling(path, orders)
-    told = told[-1:] + told[:-1]  # a clock that is wrong shows soonest between the first and the last
+    told = told[-1:] + told[:-1]  # first and last order show a wrong clock soonest
     return tuple(clock_s for clock_s in CLOCKS_S if told and _explains(path, told, clock_s, rounding))
 
 

@@ -1,6 +1,6 @@
-"""What a person names: a satellite, Sun or Moon, a planet, a radio source, another station, or a direction.
+"""The targets that a person can name: a satellite, Sun or Moon, a planet, a radio source, a station, a direction.
 
-Knows which words mean what. Does not know files or the rotor.
+Knows the meaning of the words. Does not know files or the rotor.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
     source = next((name for name in RADIO_SOURCES if plain(name) == said), None)
     if source is not None:
         return RadioSource(source, site)
-    # A satellite may be called as a locator is written: SO50 is one, and a field with the squares 50.
+    # The name of a satellite may look like a locator: SO50 is a satellite, and also a field and square.
     try:
         return Satellite(catalogue.find(words, [*(name.title() for name in BODIES), *RADIO_SOURCES]), site)
     except Unknown:
@@ -64,14 +64,14 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
 
 
 def fixed(words: str) -> Fixed | None:
-    """`180 45`; None: the words are no direction. Raises Unknown for numbers that are none."""
+    """`180 45`; None: the words are no direction. Raises Unknown for impossible numbers."""
     words = " ".join(words.split())
     there = _direction(words)
     return None if there is None else Fixed(words, there)
 
 
 def _direction(words: str) -> Sight | None:
-    """Azimuth and elevation. Raises Unknown for numbers that are none."""
+    """Azimuth and elevation. Raises Unknown for impossible numbers."""
     parts = words.replace(",", ".").split(" ")
     try:
         azimuth_deg, elevation_deg = (float(part) for part in parts)

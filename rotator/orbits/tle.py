@@ -13,7 +13,7 @@ from rotator.orbits.elements import Elements
 
 LENGTH = 69
 FIRST_YEAR = 57
-"""Two digits from here on are of the last century: Sputnik flew in 1957."""
+"""Two-digit years from this on belong to the last century: Sputnik flew in 1957."""
 ALPHA5 = "ABCDEFGHJKLMNPQRSTUVWXYZ"
 """A stands for 10, Z for 33. I and O are left out, for they look like digits."""
 _LINE = re.compile(r"([12]) [ 0-9A-Z][ 0-9]{4}")
@@ -25,7 +25,7 @@ def looks_like_tle(text: str) -> bool:
 
 
 def read(text: str) -> Iterator[Elements | str]:
-    """Each set of a text, in its order; in place of a set that is wrong a sentence with its line."""
+    """Each set of a text, in its order; a sentence with its line in place of each wrong set."""
     name = ""
     first: tuple[int, str] | None = None
     for number, line in enumerate((line.rstrip() for line in text.splitlines()), 1):
