@@ -24,7 +24,7 @@ DAMAGED = Latch(f"the damaged file {FILE_NAME}")
 
 
 class Kept(Enum):
-    """What the file says."""
+    """The states in the file."""
 
     NOTHING = "no stop"
     STOP = "a stop"
@@ -41,7 +41,7 @@ class LatchFile:
         self._kept = Kept.NOTHING
 
     def load(self) -> Latch | None:
-        """What the last run of the program left, in words for the new one; None: it left no stop."""
+        """The stop that the last run left, in words for the new run; None: no stop."""
         latch = self._file.load(
             _parse, absent=None, damaged=DAMAGED, consequence="it may have kept a stop: nothing moves until resume"
         )

@@ -1,8 +1,8 @@
-"""The file with what is known of the motor relays: a relay in doubt stays in doubt over a restart.
+"""The file with the trust in the motor relays: a relay in doubt stays in doubt after a restart.
 
 Knows the file's form, and what the end of a program leaves uncertain. Does not know how a doubt arises or ends. While
-the program runs the file says that each relay may be closed: after a crash or a power cut that is all that is known.
-The same holds without a file, and where the card refuses to be written: what it says may be older than the last run.
+the program runs the file says that each relay may be closed, because after a crash or a power cut no more is known.
+The same holds without a file, and if the card refuses writes: then the file may be older than the last run.
 The file is written at the start, at a proper end, and when a relay is suspected or cleared: seldom.
 """
 
@@ -22,7 +22,7 @@ FILE_NAME = "relays.json"
 FORM = Form("rotator relays")
 UNKNOWN: Trusts = (Trust.UNSEEN, Trust.UNSEEN)
 REFUSED_EVERY = 10
-"""A card that refuses is written at every change, and else each so many times."""
+"""A card that refuses is written again at each change, and without a change once in this many calls."""
 
 
 def after(trusts: Trusts, *, proper: bool) -> Trusts:
@@ -44,7 +44,7 @@ class RelaysFile:
         self._file = SparedFile(path, FORM, "what is known of the relays", memory)
         self._written: dict[Axis, Trusts] = {}
         self._tried: dict[Axis, Trusts] = {}
-        """What the card refused last."""
+        """The last content that the card refused."""
         self._refused = 0
 
     @property
@@ -54,11 +54,11 @@ class RelaysFile:
 
     @property
     def outlives(self) -> bool:
-        """Whether what is known would outlive a killed program."""
+        """Whether the present trust would survive if the program were killed now."""
         return self._file.outlives
 
     def begin(self) -> dict[Axis, Trusts]:
-        """What may be believed as a run of the program begins; from now on the file says that it runs."""
+        """The trust at the begin of a run. From now on the file says that the program runs."""
         in_memory, kept = self._file.in_memory, self.load()
         self.save(kept)
         if in_memory or not self.trouble:
@@ -67,7 +67,7 @@ class RelaysFile:
         return {axis: after(each, proper=False) for axis, each in kept.items()}
 
     def load(self) -> dict[Axis, Trusts]:
-        """What the last run of the program left."""
+        """The trust that the last run left."""
         return self._file.load(
             _parse,
             absent=dict.fromkeys(Axis, UNKNOWN),

@@ -1,8 +1,8 @@
-"""The file with what the motors were tried for in vain: a restart of the program, or of the Pi, is no new try.
+"""The file with the vain tries of the motors: a restart of the program, or of the Pi, does not reset their count.
 
-Knows the file's form. A clock may jump, and a Pi without a network has none: so the file keeps no moments, and what was
-counted counts for its whole time anew. The card is written when a fault stops a motor, when a person releases it, and
-when the time is over. That a motor runs and has not been seen to turn yet is noted in memory alone.
+Knows the file's form. A clock may jump, and a Pi without a network has none. So the file has no times, and after a
+restart each try counts for its whole time again. The card is written when a fault stops a motor, when a person releases
+it, and when the time is over. A running motor without visible motion yet is noted only in memory.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ FORM = Form("rotator tries")
 NOTHING: Mapping[Axis, Tries] = dict.fromkeys(Axis, NO_TRIES)
 MOST_TRIES = 10
 REFUSED_EVERY = 10
-"""A card that refuses is written at every change of what it has to keep, and else each so many times."""
+"""A card that refuses is written again at each change of its content, and without a change once in this many calls."""
 WIDEST_DEG = 1000.0
-"""No rotor turns further."""
+"""Degrees: no rotor turns further."""
 
 
 class TriesFile:
@@ -37,10 +37,10 @@ class TriesFile:
         """`memory`: a folder that outlives the program, and not a boot; None: there is none."""
         self._file = SparedFile(path, FORM, "what the motors were tried for in vain", memory)
         self._written: dict[Axis, Tries] | None = None
-        """What the card has; None: not known."""
+        """The content of the card; None: not known."""
         self._refused: dict[Axis, Tries] | None = None
         self._refusals = 0
-        """What the card refused last, and how often it was to be written since."""
+        """The last content that the card refused, and the number of calls since."""
 
     @property
     def trouble(self) -> str:
@@ -48,7 +48,7 @@ class TriesFile:
         return self._file.trouble
 
     def load(self) -> dict[Axis, Tries]:
-        """What the last run left. A run that had not been seen to move its axis counts as a try."""
+        """The tries that the last run left. A run without visible motion of its axis counts as a try."""
         none, damaged = dict.fromkeys(Axis, NO_TRIES), dict.fromkeys(Axis, NO_TRIES)
         on_card = not self._file.in_memory
         kept = self._file.load(_parse, absent=none, damaged=damaged, consequence="ignored, no motor counts as tried")
@@ -57,7 +57,7 @@ class TriesFile:
         return {axis: replace(each, faults=each.faults + each.driven, driven=False) for axis, each in kept.items()}
 
     def save(self, tries: Mapping[Axis, Tries]) -> bool:
-        """Write what has changed. False: it would not outlive the program."""
+        """Write the changes. False: they would not outlive the program."""
         counted = {axis: replace(each, driven=False) for axis, each in tries.items()}
         if counted != self._written and not self._refuses(counted):
             kept = self._file.save(_content(counted))

@@ -154,7 +154,7 @@ def release(status: Status) -> str:
 
 
 def by_itself(axis: Axis, each: AxisStatus) -> str:
-    """`TURNS CCW 5.9°/s` of an axis that nobody drives; empty: it stands, or is driven."""
+    """`TURNS CCW 5.9°/s` for an axis that turns without a motor; empty: it stands, or is driven."""
     if not each.by_itself_dps:
         return ""
     way = Direction.PLUS if each.by_itself_dps > 0 else Direction.MINUS
