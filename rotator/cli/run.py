@@ -34,6 +34,7 @@ from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path, runtime_folder
 from rotator.runtime.anew import Anew
+from rotator.runtime.one_heap import use_one_heap
 from rotator.runtime.signals import SignalThread
 from rotator.views import plain_lines, terminal
 from rotator.views.sky_plot import Trail
@@ -44,6 +45,7 @@ PAGE_LOOKS = 30
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
+    use_one_heap()
     anew = Anew()
     restored(path)
     good = text_of(path)
