@@ -35,6 +35,9 @@ class Fragile:
             raise HardwareError("the lines cannot be set")
         return self._bank.drive(axis, direction, until_s)
 
+    def driven(self) -> dict[Axis, Direction]:
+        return self._bank.driven()
+
     def off(self) -> None:
         self._bank.off()
 
