@@ -25,7 +25,7 @@ _NAMES = "|".join(_PERSONS)
 _NUMBERED = re.compile(r"\b(console|page)#[0-9]+")
 _PLAIN = re.compile(
     rf"(?<=\bby )(?:{_NAMES})\b(?![#-])|(?<=\borders from )(?:{_NAMES})\b(?![#-])"
-    rf"|\b(?:{_NAMES})(?= moves the antenna| holds the antenna| has set the mode)"
+    rf"|(?<!\bthe )\b(?:{_NAMES})(?= moves the antenna| holds the antenna| has set the mode)"
 )
 """A name without a number is an English word too: it is a name only where one stands."""
 _HERE = ("127.", "::1")

@@ -24,11 +24,13 @@ from rotator.spoken import sender, short_sender, spoken
             "the page is full; no panel, no keyboard; stopped by panel-2",
             "the page is full; no panel, no keyboard; stopped by panel-2",
         ),
+        ("page#2 has set the mode, panel moves the antenna", "the page has set the mode, the panel moves the antenna"),
         ("", ""),
     ],
 )
 def test_a_command_is_called_so_and_every_other_sender_by_its_name(text: str, read: str) -> None:
     assert spoken(text) == read
+    assert spoken(read) == read, "a text that was made for a person stays as it is"
 
 
 SAID = {
