@@ -28,6 +28,9 @@ NEAR_DEG = 10.0
 """No control box turns its rotor further from one reading to the next."""
 FIRST_READINGS = 5
 """Readings that must agree on the first place; they must also be the majority."""
+NEAR_READINGS, LATEST_NEAR = 3, 5
+"""So many of the latest readings must be near the last place. Among readings that show any place, one is near by
+chance: a box that is to stand would turn there."""
 MOVED_READINGS, LATEST_READINGS = 20, 27
 """Latest readings that must agree on a place further off. A spark on the wire is shorter, and a crackling wiper
 shows other places in between."""
@@ -76,7 +79,7 @@ class FollowedBox:
     """The pot of the rotor, or another sensor, on an axis for which the drive has only a modelled angle.
 
     `calibration` turns the readings into degrees on the rotor's own scale. A reading outside `healthy`, as from
-    a broken wire, shows no place; nor does a short jump.
+    a broken wire, shows no place; nor does a short jump, nor one reading among many that jump.
     """
 
     def __init__(
@@ -114,4 +117,8 @@ class FollowedBox:
         alike = sum(abs(other_deg - angle_deg) <= NEAR_DEG for other_deg in self._latest_deg)
         if self._place_deg is None:
             return alike >= FIRST_READINGS and 2 * alike > len(self._latest_deg)
-        return abs(angle_deg - self._place_deg) <= NEAR_DEG or alike >= MOVED_READINGS
+        if alike >= MOVED_READINGS:
+            return True
+        latest_deg = list(self._latest_deg)[-LATEST_NEAR:]
+        near = sum(abs(other_deg - self._place_deg) <= NEAR_DEG for other_deg in latest_deg)
+        return abs(angle_deg - self._place_deg) <= NEAR_DEG and near >= NEAR_READINGS

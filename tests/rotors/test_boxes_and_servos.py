@@ -175,3 +175,20 @@ def test_a_crackling_wiper_puts_no_model_elsewhere_also_at_the_start(drive: Jour
         sensor.read()
         assert drive.models in ({}, {EL: 90.0})
     assert drive.models == {EL: 90.0}
+
+
+@pytest.mark.parametrize("before", range(1, 5))
+def test_a_reading_that_is_near_by_chance_among_others_that_jump_shows_no_place(drive: Journal, before: int) -> None:
+    """A box that is to stand takes its place from the first reading that is believed: it would turn there."""
+    pot = Pot()
+    sensor = followed(drive, pot)
+    for _ in range(FIRST_READINGS):
+        sensor.read()
+    for pot.reading in ((0.8, 0.1, 0.9, 0.2) * 2)[: before + 3]:
+        sensor.read()
+    pot.reading = 0.54
+    sensor.read()
+    assert drive.models == {EL: 90.0}
+    for _ in range(2):
+        sensor.read()
+    assert drive.models == {EL: pytest.approx(97.2)}, "three of the latest five agree"
