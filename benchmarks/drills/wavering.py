@@ -8,12 +8,15 @@ order but those that it is given.
 
 from __future__ import annotations
 
+from rotator.control.sky.angles import great_circle_deg
+
 WAVERS_DEG = 90.0
 """No nearer to its predecessor than this, an order is another target."""
 REMEMBERS_S = 120.0 + 96.0
 """So long after the last wish for a swing, the next one may have to wait."""
-STREAM_ORDERS, STREAM_GAP_S, STREAM_STEP_DEG = 4, 5.0, 10.0
-"""So many orders, no further apart than both, and not all for one place, are a target that moves."""
+STREAM_ORDERS, STREAM_GAP_S, STREAM_STEP_DEG, SKY_STEP_DEG = 4, 5.0, 10.0, 4.0
+"""So many orders, no further apart in time and in azimuth, or on the sky, and not all for one place, are a target that
+moves: near the zenith a short way on the sky is a long one in azimuth."""
 
 ZENITH_DEG, HALF_TURN_DEG, NEAR_ZENITH_DEG = 90.0, 180.0, 4.0
 CERTAIN_S, AHEAD_S = 45.0, 900.0
@@ -40,14 +43,15 @@ class Wavering:
         """The ends of the range where the target may be waited for. `turns_deg`: all angles that show there, on every
         turn, also beyond the range. At the zenith each azimuth shows it, and the antenna may stay."""
         overhead = abs(elevation_deg - ZENITH_DEG) < NEAR_ZENITH_DEG
+        moves = self._moves(now_s, turns_deg, elevation_deg)
+        most_deg = HALF_TURN_DEG if moves else WAVERS_DEG
         near_deg = [
             angle_deg
             for angle_deg in turns_deg
-            if any(abs(angle_deg - other_deg) <= WAVERS_DEG for other_deg in self._before_deg)
+            if any(abs(angle_deg - other_deg) <= most_deg for other_deg in self._before_deg)
         ]
         beyond_deg = [angle_deg for angle_deg in near_deg if not self._low_deg <= angle_deg <= self._high_deg]
         within_deg = [angle_deg for angle_deg in turns_deg if self._low_deg <= angle_deg <= self._high_deg]
-        moves = self._moves(now_s, turns_deg, elevation_deg)
         may_wait = bool(beyond_deg) and (moves or now_s - self._swung_s <= REMEMBERS_S)
         # Where it shows on two turns, the antenna may have swung to the further one.
         if beyond_deg or (near_deg and set(within_deg) - set(near_deg)):
@@ -63,9 +67,11 @@ class Wavering:
             within_deg = (angle_deg for angle_deg in turns_deg if self._low_deg <= angle_deg <= self._high_deg)
             near_deg = next(within_deg, turns_deg[0])
         else:
-            before_s, before_deg, _ = self._stream[-1]
+            before_s, before_deg, raised_deg = self._stream[-1]
             near_deg = min(turns_deg, key=lambda angle_deg: abs(angle_deg - before_deg))
-            if now_s - before_s > STREAM_GAP_S or abs(near_deg - before_deg) > STREAM_STEP_DEG:
+            apart_deg = great_circle_deg(before_deg, raised_deg, near_deg, elevation_deg)
+            elsewhere = abs(near_deg - before_deg) > STREAM_STEP_DEG and apart_deg > SKY_STEP_DEG
+            if now_s - before_s > STREAM_GAP_S or elsewhere:
                 self._stream.clear()
         self._stream.append((now_s, near_deg, elevation_deg))
         return len(self._stream) >= STREAM_ORDERS and any(angle_deg != near_deg for _, angle_deg, _ in self._stream)
