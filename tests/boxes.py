@@ -6,9 +6,12 @@ Knows the text of such a file. Knows nothing of how a box is started, or of what
 from __future__ import annotations
 
 import socket
+from itertools import islice
 from pathlib import Path
+from typing import IO
 
 FAST_ROTOR = (Path(__file__).parent / "fast_rotor.toml").read_text(encoding="utf-8")
+GREETING_LINES = 2
 
 
 _GIVEN: set[int] = set()
@@ -55,3 +58,8 @@ pty = "{folder}/gs232"
 {FAST_ROTOR}
 {more}
 """
+
+
+def greets(said: IO[bytes] | IO[str]) -> bool:
+    """Whether the first lines of `rotator run --plain` say that the rotor is simulated. It waits for them."""
+    return any("SIMULATED" in str(line) for line in islice(said, GREETING_LINES))

@@ -21,9 +21,12 @@ from rotator.config.model import Config
 from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION
 from rotator.doctor.finding import Finding
 from rotator.doctor.machine import Machine
+from tests.boxes import free_port
 
 PI_4 = "Raspberry Pi 4 Model B Rev 1.4"
-STATION = """
+STATION = f"""
+[page]
+listen = "127.0.0.1:{free_port()}"
 [rotor]
 hardware = "pi"
 [azimuth]

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.boxes import FAST_ROTOR, free_port
+from tests.boxes import FAST_ROTOR, free_port, greets
 
 START_S = 20.0
 
@@ -52,7 +52,7 @@ def start_box(tmp_path: Path) -> Iterator[Callable[..., RunningBox]]:
         assert process.stdout is not None
         ready, _, _ = select.select([process.stdout], [], [], START_S)
         assert ready, "the box says nothing"
-        assert "SIMULATED" in process.stdout.readline()
+        assert greets(process.stdout)
         return RunningBox(process, pty, gs232_port, rotctld_port)
 
     yield start

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from rotator.config.load import shipped
-from tests.boxes import free_port
+from tests.boxes import free_port, greets
 
 START_S = 20.0
 PATIENCE_S = 60.0
@@ -50,7 +50,7 @@ def start(tmp_path: Path) -> Iterator[Callable[[str], RunningRotor]]:
         assert process.stdout is not None
         ready, _, _ = select.select([process.stdout], [], [], START_S)
         assert ready, "the box says nothing"
-        assert "SIMULATED" in process.stdout.readline()
+        assert greets(process.stdout)
         return RunningRotor(process, place, pty)
 
     yield run

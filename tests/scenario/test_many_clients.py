@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.boxes import FAST_ROTOR, free_port
+from tests.boxes import FAST_ROTOR, free_port, greets
 
 PATIENCE_S = 120.0
 CLIENTS, QUESTIONS = 100, 50
@@ -79,7 +79,7 @@ def box(tmp_path: Path) -> Iterator[Box]:
         )
     assert process.stdout is not None
     with closing(process.stdout):
-        assert b"SIMULATED" in process.stdout.readline()
+        assert greets(process.stdout)
         yield Box(process, port, log)
         process.send_signal(signal.SIGTERM)
         assert process.wait(PATIENCE_S) == 0
