@@ -5,6 +5,7 @@ Knows from the box's answers when its plan stands. The box finds the target, pla
 
 from __future__ import annotations
 
+import os.path
 import time
 from pathlib import Path
 from typing import Any
@@ -56,7 +57,8 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
 def _table(words: str) -> list[str] | None:
     """The lines of the file that the words name; None: they name no file. Raises CommandFailed."""
     path = Path(words)
-    if path.suffix.lower() != ".csv" and not path.is_file():
+    # A name that is too long for a file is none: Path.is_file() would raise.
+    if path.suffix.lower() != ".csv" and not os.path.isfile(path):
         return None
     from rotator.protocols.table_text import FORM, TableError, read_table  # noqa: PLC0415 - no other target needs it
     from rotator.store.plain import read_plain  # noqa: PLC0415
@@ -111,7 +113,7 @@ def _tracks(box: RunningBox) -> dict[str, Any] | None:
 
 def _sentence(tracks: dict[str, Any]) -> str:
     wait_s, table = tracks["begins_in_s"], tracks["table"]
-    name = f"The table {tracks['name']}.csv" if table else tracks["name"]
+    name = f"The table {tracks['name']}" if table else tracks["name"]
     if wait_s > 0:
         text = f"{name} {'begins' if table else 'rises'} in {_time(wait_s)}. The antenna waits for it there."
     elif table:

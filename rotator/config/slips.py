@@ -211,6 +211,8 @@ def _no_sign(bare: str, sorts: Mapping[str, Sort]) -> Slip | None:
 
 
 def _before_remark(value: str) -> str:
-    """A value without the remark behind it; a # within quotes is none."""
+    """A value without the remark behind it. A # within quotes is none; marks of minutes and seconds are no quotes."""
     kept = re.match(r"""(?:"(?:\\.|[^"\\])*"|'[^']*'|[^#"']|["'](?=[^"']*$))*""", value)
-    return (kept[0] if kept else value).rstrip()
+    if not kept or value[kept.end() : kept.end() + 1] not in ("", "#"):
+        return value.partition("#")[0].rstrip()
+    return kept[0].rstrip()

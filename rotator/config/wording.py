@@ -200,6 +200,8 @@ def _right_value(sort: str, key: str, value: object) -> str:
             return f'; write "{value}"' if isinstance(value, int) else "; put it in quotes"
         case "list", str(text) if text.lstrip().startswith("["):
             return "; write it without quotes"
+        case "list", str(text) if key == "elements":
+            return f"; write [{show(text)}]"
         case "list", str(text) if key in _LISTS_OF_TEXTS:
             texts = [each for each in re.split(r"[\s,;]+", text) if each]
             return f"; write [{', '.join(show(each) for each in texts)}]" if texts else ""

@@ -163,13 +163,15 @@ class Tracker:
     def state(self) -> str:
         """`off`, `planning`, `tracking`, or `ended: ` and the reason.
 
-        `refused: ` and the reason: the latest request cannot be tracked, and the tracking before it goes on.
+        `refused: ` and the reason: the latest request cannot be tracked, and the tracking before it goes on. Who reads
+        `tracking` finds this flight in the status, not the one before it.
         """
+        status = self._box.status()
         with self._lock:
             if self._tracked.words and self._refused:
                 return f"refused: {self._refused}"
             if self._tracked.words:
-                return "tracking" if self._tracked.flown else "planning"
+                return "tracking" if self._tracked.flown and _is_shown(self._tracked.flown, status) else "planning"
             return f"ended: {self._ended}" if self._ended else "off"
 
     def track(self, words: str) -> str:
@@ -325,6 +327,13 @@ class Tracker:
                 return
             self._tracked, self._before, self._ended = NOTHING, NOTHING, reason
         log.warning("tracking of %s has ended: %s", words, reason)
+
+
+def _is_shown(flown: Flown, status: Status) -> bool:
+    """Whether the status is later than the order of this flight."""
+    if status.at_s >= flown.ordered_s + TAKES_EFFECT_S:
+        return True
+    return status.flown is not None and status.flown.name == flown.flight.order.name
 
 
 def _is_over(flown: Flown, now: Now) -> bool:

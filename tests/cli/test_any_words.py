@@ -36,8 +36,8 @@ WHOLE = ("empty", "long.toml", "/dev/null")
 """Configurations that a box can run with."""
 NAMES = st.sampled_from([*FILES, "folder", "missing", "/dev/null", "/", "-", ".", "a/b", "\udcff.toml", "x" * 300])
 STARTS_A_BOX = ("run", "arduino", "calibrate", "rehearse", "off", "doctor")
-ANSWERS = ("where", "point", "jog", "park", "stop", "resume", "home", "confirm", "relays-checked", "let-go", "panel",
-           "tell", "monitor", "config", "sky", "")  # fmt: skip
+ANSWERS = ("where", "point", "jog", "park", "stop", "resume", "track", "home", "confirm", "relays-checked", "let-go",
+           "panel", "tell", "monitor", "config", "sky", "pair", "help", "")  # fmt: skip
 WORDS = st.one_of(
     st.sampled_from(["azimuth", "elevation", "north", "cw", "180", "45", "-90", "0,5", "1e9", "nan", "--", "-", ""]),
     st.sampled_from(["--json", "--yes", "--no-wait", "--plain", "--help", "-h", "--list", "--arduino", "--jsn", "-5x"]),

@@ -80,10 +80,10 @@ def test_whole_numbers(typed: str, key: str, meant: list[str]) -> None:
 
 
 @pytest.mark.parametrize("quotes", ['"', "'", ""])
-@pytest.mark.parametrize("typed", ["48°12'30", "48 12 30", "48°12'30''N", "N 48 12 30"])
+@pytest.mark.parametrize("typed", ["48°12'30", "48 12 30", "48°12'30''N", "48°12'30\" N", "N 48 12 30"])
 def test_a_latitude_as_on_a_map_gets_one_line_that_works(typed: str, quotes: str) -> None:
     if quotes and quotes in typed:
-        quotes = '"'
+        quotes = "'" if '"' in typed else '"'
     (said,) = faults(f"{STATION}{quotes}{typed}{quotes}\n")
     assert "write latitude_deg = 48.208333" in said.replace("\u00a0", " ")
     parse(f"{STATION}48.208333\n", "x")
@@ -100,6 +100,8 @@ def test_a_latitude_as_on_a_map_gets_one_line_that_works(typed: str, quotes: str
         ('[azimuth]\nmin_deg = "4o"\n', "write one number alone, in degrees"),
         ("[azimuth]\nmin_deg = 10-20\n", "write one number alone, in degrees"),
         ('[azimuth]\ncalibration = "[[0, 0], [1, 360]]"\n', "write it without quotes"),
+        ('[sky]\nelements = "my sets.tle"\n', 'write ["my sets.tle"]'),
+        ("[sky]\nelements = sets.tle\n", 'write ["sets.tle"]'),
         ('[page]\nallow = "10.0.0.0/8, 192.168.1.0/24"\n', 'write ["10.0.0.0/8", "192.168.1.0/24"]'),
         ("[[link]]\nprotocol = rotctld\nname = 2m Yagi\ntcp = 'a:1'\n", 'write name = "2m Yagi"'),
         ("[[link]]\nprotocol = 'rotctld'\nname = 007\ntcp = 'a:1'\n", 'write name = "007"'),

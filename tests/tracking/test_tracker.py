@@ -197,6 +197,19 @@ def test_another_target_takes_the_place_of_the_first(rise: Box) -> None:
     assert rise.loop.status.flown.name == "Moon"
 
 
+def test_what_is_called_tracked_is_what_the_status_shows(rise: Box) -> None:
+    shown = None
+    for words, name in (("iss", "ISS"), ("moon", "Moon"), ("iss", "ISS")):
+        assert rise.tracker.track(words) == ""
+        rise.look()
+        assert rise.loop.status.flown is shown
+        assert rise.tracker.state == "planning"
+        rise.wait(5.0, lambda: rise.tracker.state == "tracking")
+        shown = rise.loop.status.flown
+        assert shown is not None
+        assert shown.name == name
+
+
 def test_a_direction_is_an_order_like_any(rise: Box) -> None:
     assert rise.tracker.track("100 20") == ""
     rise.wait(60.0)
