@@ -29,7 +29,8 @@ UNKNOWN_RUN_S = 0.5
 LEAST_RUN_S = 0.15
 """A shorter run may be over before a motor turns."""
 STOOD_STARTS = 10
-"""But this many runs of any length, one after the other, move even the antenna that only creeps to its target."""
+"""But this many runs of any length move even an antenna that only creeps to its target, if most of them led one way. To
+and fro about its target an antenna turns by less than its readings scatter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +74,7 @@ class ShortRuns:
         self._stood_s = 0.0
         self._starts = 0
         self._driven_s = 0.0
-        """The starts since it was last seen to move, and their runs in all."""
+        """The starts since it was last seen to move, and the time of their runs, plus one way and minus the other."""
         self._backwards = 0
         self.tries = 0
         """Runs without motion since the last fault."""
@@ -145,10 +146,11 @@ class ShortRuns:
             return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}°")
         # A slow motor among noisy readings needs longer to show that it moves.
         enough_s = max(STOOD_S if self._known else UNKNOWN_STOOD_S, moved_deg / (TOLD_SHARE * self._speed_dps))
-        creeps = self._starts >= STOOD_STARTS and self._driven_s * TOLD_SHARE * self._speed_dps >= moved_deg
+        one_way_s = abs(self._driven_s)
+        creeps = self._starts >= STOOD_STARTS and one_way_s * TOLD_SHARE * self._speed_dps >= moved_deg
         if self._stood_s < enough_s and self._runs < STOOD_RUNS and not creeps:
             return None
-        runs = f"short runs {name}, {max(self._stood_s, self._driven_s):.1f} s in all"
+        runs = f"short runs {name}, {max(self._stood_s, one_way_s):.1f} s in all"
         measured = f"its motor made {runs}, but the angle stays at {smoothed_deg:.1f}°"
         return Fault(FaultKind.STANDS_STILL, self._axis, measured, f"at least {moved_deg:.1f}° in {enough_s:g} s")
 
@@ -163,7 +165,7 @@ class ShortRuns:
             self._backwards = self._backwards + 1 if gone_deg <= -self._moved_deg else 0
         if self._moved:
             return
-        self._starts, self._driven_s = self._starts + 1, self._driven_s + run_s
+        self._starts, self._driven_s = self._starts + 1, self._driven_s + run_s * way
         if run_s >= LEAST_RUN_S:
             self._runs += run_s >= self._telling_s
             self._stood_s += run_s

@@ -138,6 +138,15 @@ def test_a_motor_that_is_started_again_and_again_near_its_target_is_told() -> No
     assert bench.kinds == [FaultKind.STANDS_STILL]
 
 
+@pytest.mark.parametrize("noise_deg", [0.1, 0.3, 0.4])
+@pytest.mark.parametrize("run_s", [STEP_S, 0.1])
+def test_an_antenna_that_turns_to_and_fro_about_its_target_is_not(run_s: float, noise_deg: float) -> None:
+    bench = Bench(noise_deg=noise_deg)
+    for count in range(60):
+        bench.press((PLUS, MINUS)[count % 2], run_s, 1.5)
+    assert bench.faults == []
+
+
 def test_after_a_run_the_next_start_waits_until_the_readings_can_show_it() -> None:
     bench = Bench(pace=0.0)
     bench.press(PLUS, 0.1, 0.3)
