@@ -29,7 +29,7 @@ class Kept(Enum):
     NOTHING = "no stop"
     STOP = "a stop"
     STORM = "a storm park"
-    UNKNOWN = "not readable, or not written"
+    UNKNOWN = "not readable, or not written to the card"
 
 
 class LatchFile:
@@ -45,7 +45,8 @@ class LatchFile:
         latch = self._file.load(
             _parse, absent=None, damaged=DAMAGED, consequence="it may have kept a stop: nothing moves until resume"
         )
-        self._kept = Kept.UNKNOWN if latch is DAMAGED else _kind(latch)
+        # What is in memory only would not outlive a power cut: the next `save` writes it to the card.
+        self._kept = Kept.UNKNOWN if latch is DAMAGED or self._file.in_memory else _kind(latch)
         if latch is None or latch is DAMAGED:
             return latch
         return Latch(latch.by.removesuffix(BEFORE) + BEFORE, storm=latch.storm)

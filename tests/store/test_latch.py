@@ -106,3 +106,21 @@ def test_memory_keeps_a_stop_that_the_card_refuses(tmp_path: Path) -> None:
     assert LatchFile(path, memory).save(STOP)
     assert LatchFile(path).load() == Latch(f"{STOP.by} before the restart")
     assert not list(memory.iterdir())
+
+
+@pytest.mark.parametrize("before", [None, STORM])
+@pytest.mark.parametrize("latch", [STOP, STORM, None])
+def test_what_memory_alone_kept_is_written_to_the_card_by_the_next_run(
+    tmp_path: Path, before: Latch | None, latch: Latch | None
+) -> None:
+    path, memory = tmp_path / "latch.json", tmp_path / "memory"
+    first = LatchFile(path, memory)
+    first.save(before)
+    blocked = path.with_name(path.name + NEW)
+    blocked.mkdir()
+    first.save(latch)
+    blocked.rmdir()
+    second = LatchFile(path, memory)
+    assert second.save(second.load())
+    kept = LatchFile(path).load()  # after a power cut there is only the card
+    assert (kept is not None, kept is not None and kept.storm) == (latch is not None, latch is not None and latch.storm)
