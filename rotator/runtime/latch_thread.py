@@ -14,7 +14,8 @@ T = TypeVar("T")
 LATCH_THREAD, TRIES_THREAD = "latch", "tries"
 """The names of the threads."""
 AGAIN_S = 10.0
-"""Seconds of pause after a failed write: a dying card must not be written at each press."""
+"""Seconds of pause after a failed write before the same is tried again. Something new does not wait: the file has a
+second place, in memory."""
 JOIN_S = 2.0
 
 
@@ -70,5 +71,5 @@ class LatchThread(Generic[T]):
                     return
                 if not done:
                     last_try = self._ending
-                    self._news.wait_for(lambda: self._ending, self._again_s)
+                    self._news.wait_for(lambda: self._ending or self._unwritten, self._again_s)
                     self._unwritten = True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import queue
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -99,6 +100,22 @@ def test_what_the_card_refused_is_tried_once_more_at_the_end(tmp_path: Path) -> 
     folder.unlink()
     thread.close()
     assert left_in(folder / "latch.json") == Latch("panel before the restart")
+
+
+def test_something_new_does_not_wait_until_a_refusing_card_is_tried_again() -> None:
+    tried: queue.SimpleQueue[Latch | None] = queue.SimpleQueue()
+
+    def refused(latch: Latch | None) -> bool:
+        tried.put(latch)
+        return False
+
+    thread: LatchThread[Latch | None] = LatchThread(refused, None, again_s=100 * PATIENCE_S)
+    thread.start()
+    assert tried.get(timeout=PATIENCE_S) is None
+    for latch in (STOP, None, STORM):
+        thread.note(latch)
+        assert tried.get(timeout=PATIENCE_S) == latch
+    thread.close()
 
 
 def scripts(events: Events) -> Iterator[Sequence[tuple[Events, Events, bool]]]:
