@@ -21,6 +21,10 @@ LONGEST_GAP_S = 0.3
 LEAST_READINGS = 3
 """A line needs this many readings."""
 
+LONE_DEG, LONE_NOISES = 1.5, 6.0
+"""A reading further out than both from the one before and the one after, and further than the axis turns in between, is
+a spark that was too small to be seen at once: no motor turns out and back so soon, and it would tilt the line."""
+
 _FIRST_NOISE_DEG = 0.1
 _FIRST_READINGS = 20
 """The first estimate of the noise is the mean scatter of this many readings."""
@@ -74,7 +78,10 @@ class Trend:
         if elsewhere:
             self._kept.clear()
         self._kept.append((at_s, angle_deg))
-        self._note_noise()
+        if self._lone(fastest_dps):
+            del self._kept[-2]
+        else:
+            self._note_noise()
         while at_s - self._kept[0][0] > KEPT_S:
             self._kept.popleft()
         return True
@@ -109,6 +116,15 @@ class Trend:
         if len(self._kept) > 1:
             gap_s = (self.last_s - self.since_s) / (len(self._kept) - 1)
         return float((self.noise_deg * math.sqrt(12.0 * gap_s) / error_dps) ** (2.0 / 3.0))
+
+    def _lone(self, fastest_dps: float) -> bool:
+        """Whether the reading before the latest one lies apart from both its neighbours, on one side."""
+        if len(self._kept) < LEAST_READINGS or len(self._first) < _FIRST_READINGS:
+            return False
+        (before_s, before_deg), (_, angle_deg), (after_s, after_deg) = (self._kept[place] for place in (-3, -2, -1))
+        out_deg, back_deg = angle_deg - before_deg, angle_deg - after_deg
+        least_deg = max(LONE_DEG, LONE_NOISES * self.noise_deg) + fastest_dps * (after_s - before_s)
+        return out_deg * back_deg > 0.0 and min(abs(out_deg), abs(back_deg)) > least_deg
 
     def _note_noise(self) -> None:
         """Follow the median of how far a reading is off the line through its neighbours: starting motors hardly change

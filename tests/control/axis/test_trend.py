@@ -29,3 +29,27 @@ def test_after_a_gap_the_line_begins_anew() -> None:
         trend.see(at_s, 10.0, 6.0)
     assert trend.since_s == 2.0
     assert trend.slope(0.0) is None
+
+
+@pytest.mark.parametrize("off_deg", [-3.0, 2.6, 3.0])
+@pytest.mark.parametrize("number", range(30, 60, 4))
+@pytest.mark.parametrize("speed_dps", [0.0, 6.0])
+def test_one_reading_that_is_off_tilts_no_line(off_deg: float, number: int, speed_dps: float) -> None:
+    """A bad reading that is too near to be seen at once shows itself by the next one."""
+    chance, trend = random.Random(number), Trend()
+    for count in range(61):
+        angle_deg = speed_dps * count * STEP_S + chance.gauss(0.0, 0.1)
+        assert trend.see(count * STEP_S, angle_deg + (off_deg if count == number else 0.0), 6.0)
+    slope = trend.slope(30 * STEP_S)
+    assert slope is not None
+    assert slope.speed_dps == pytest.approx(speed_dps, abs=4.0 * slope.error_dps)
+
+
+@NOISES_DEG
+def test_an_axis_that_turns_and_stops_at_once_loses_no_reading(noise_deg: float) -> None:
+    chance, trend = random.Random(5), Trend()
+    for count in range(200):
+        turned_deg = 10.0 * STEP_S * abs(count % 40 - 20)
+        trend.see(count * STEP_S, turned_deg + chance.gauss(0.0, noise_deg), 10.0)
+    kept = trend.window_s(1.0), trend.noise_deg
+    assert kept[0] == pytest.approx((kept[1] * (12.0 * STEP_S) ** 0.5) ** (2.0 / 3.0), rel=0.02), "every 0.05 s"
