@@ -130,7 +130,7 @@ class Commands(click.Group):
         """`help WORDS` is `WORDS --help`; of no command, it is a section of the documentation."""
         if args[0] != "help":
             return super().resolve_command(ctx, args)
-        if not args[1:]:
+        if args[1:] in ([], ["--help"], ["-h"], ["help"]):
             click.echo(ctx.get_help())
             ctx.exit()
         if args[1] not in self.commands:

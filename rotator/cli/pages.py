@@ -30,21 +30,26 @@ class Section:
 
 
 def found(words: Sequence[str]) -> Section | None:
-    """The section that the words name: a heading or its beginning, a page, or a page and a heading of it."""
+    """The section that the words name: a heading or its beginning, a page, or a page and a heading of it or that one's
+    beginning."""
     names = [_name(part) for word in words for part in re.split(r"#", re.sub(r"^.*/|\.md\b", "", word)) if part]
     whole, page = "-".join(names), "-".join(names[:1])
     everything = list(_sections())
+    there = [each for each in everything if each.page.rpartition("/")[2] == page]
+    heading = "-".join(names[1:])
     ways = (
         [each for each in everything if each.name == whole],
-        [each for each in everything if each.page.rpartition("/")[2] == page and each.name == "-".join(names[1:])],
+        [each for each in there if each.name == heading],
         [each for each in everything if whole and each.name.startswith(whole)],
+        [each for each in there if heading and each.name.startswith(heading)],
     )
     return next((way[0] for way in ways if way), None)
 
 
 def near(words: Sequence[str]) -> list[str]:
     """Names like these words."""
-    return difflib.get_close_matches("-".join(map(_name, words)), [each.name for each in _sections()], n=3, cutoff=0.5)
+    names = dict.fromkeys(each.name for each in _sections())
+    return difflib.get_close_matches("-".join(map(_name, words)), list(names), n=3, cutoff=0.5)
 
 
 def plain(text: str) -> str:

@@ -39,7 +39,7 @@ class Operating:
 
     @property
     def tracks(self) -> str:
-        """What goes on: `off`, `planning`, `tracking`, or `ended: ` and the reason."""
+        """What goes on, as `Tracker.state` says it."""
         return self._tracking.state if self._tracking else "off"
 
     def do(self, command: PersonCommand) -> str:

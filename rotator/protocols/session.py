@@ -39,7 +39,7 @@ class Tracking(Protocol):
 
     @property
     def state(self) -> str:
-        """`off`, `planning`, `tracking`, or `ended: ` and the reason."""
+        """`off`, `planning`, `tracking`; `ended: ` or `refused: `, and the reason."""
 
 
 class Pairing(Protocol):

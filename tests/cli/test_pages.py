@@ -45,6 +45,8 @@ def test_every_way_that_a_message_names_leads_somewhere(words: str) -> None:
         ("docs/troubleshooting.md#relay-welded", "### relay welded"),
         ("calibration by-hand", "## By hand"),
         ("Pot Jumps", "### pot jumps"),
+        ("troubleshooting pot open", "### pot open"),
+        ("--help", "Usage: "),
     ],
 )
 def test_what_a_person_may_type(words: str, begins: str) -> None:
@@ -59,6 +61,12 @@ def test_a_link_is_the_command_that_prints_its_page() -> None:
 def test_what_is_not_there_is_told_with_what_is_near() -> None:
     done = CliRunner().invoke(cli, ["help", "relay-weldet"], standalone_mode=False)
     assert "there is no help on 'relay-weldet'. Did you mean relay-welded" in str(done.exception)
+
+
+@pytest.mark.parametrize("words", ["stall", "the page", "relay", "the"])
+def test_no_name_is_offered_twice(words: str) -> None:
+    offered = pages.near(words.split())
+    assert len(set(offered)) == len(offered)
 
 
 def test_a_command_comes_first() -> None:
