@@ -2,7 +2,8 @@
 
 Knows the file's form, and what the end of a program leaves uncertain. Does not know how a doubt arises or ends. While
 the program runs the file says that each relay may be closed, because after a crash or a power cut no more is known.
-The same holds without a file, and if the card refuses writes: then the file may be older than the last run.
+The same holds without a file, and if the card refuses writes: then the file may be older than the last run. A power cut
+hides that, if the card refused before it and does not after it: the message `UNKEPT` has told a person to look.
 The file is written at the start, at a proper end, and when a relay is suspected or cleared: seldom.
 """
 
