@@ -16,8 +16,9 @@ from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.orders import Jog, Order, Source, Stop
+from rotator.orders import Jog, Order, Stop
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 from rotator.status import Status
 
 MASTER = "[relays]\nmaster = 16\n"

@@ -21,7 +21,8 @@ from rotator.orbits.elements import Elements
 from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight
-from rotator.orders import Aim, Source
+from rotator.orders import Aim
+from rotator.sources import Source
 from tests.orbits import skyfield_oracle
 from tests.orbits.streams import Path, great_circle
 

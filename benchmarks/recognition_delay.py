@@ -20,7 +20,8 @@ from rotator.orbits.passes import passes
 from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orders import Aim, Source
+from rotator.orders import Aim
+from rotator.sources import Source
 from tests.orbits.streams import whole
 
 PASSES, USED = 200, 8

@@ -42,7 +42,7 @@ from rotator.links.wire import LinkError, Wire
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
 from rotator.mqtt.build import build_mqtt
-from rotator.orders import KEYBOARD, Source, Take
+from rotator.orders import Take
 from rotator.protocols.console_session import ConsoleSession
 from rotator.runtime.anew import Anew
 from rotator.runtime.autosave import Autosave
@@ -55,6 +55,7 @@ from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.latch_thread import TRIES_THREAD, LatchThread
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
+from rotator.sources import KEYBOARD, Source
 from rotator.spoken import held_by
 from rotator.store import counts
 from rotator.store.tries import NOTHING

@@ -1,15 +1,16 @@
 """The orders: what a link, the panel or a person may ask of the box.
 
-Knows the orders as values. Does not know who sends them, nor what they do.
+Knows the orders as values. Does not know who sends them, nor what they do. The order of a planned pass is in
+`flight_order`, the senders are in `sources`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Axis, Direction
+from rotator.flight_order import Fly
 
 BOTH = (Axis.AZIMUTH, Axis.ELEVATION)
 
@@ -27,78 +28,6 @@ class Aim:
     elevation_deg: float | None
     engaged: bool = True
     place: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """At this time a motor on relays starts for this angle on the axis's own scale."""
-
-    leave_s: float
-    place_deg: float
-
-
-PLAN_STEP_S = 0.5
-"""The time between two angles of an `AxisPlan`."""
-
-
-@dataclass(frozen=True, slots=True)
-class AxisPlan:
-    """How one axis flies a pass: its angles every `PLAN_STEP_S` from `begin_s` on.
-
-    `steps`: those of a motor on relays; empty for one that goes to every angle by itself.
-    """
-
-    begin_s: float
-    angles_deg: tuple[float, ...]
-    steps: tuple[Step, ...]
-
-
-DEPARTS_DEG = 1.5
-"""Degrees beside the rounding: an order further from the satellite's path ends the match of its stream."""
-BEARS_OUT_DEG = 0.5
-"""Degrees beside the rounding: if the assumed clock error is right, the orders lie this near to the path."""
-
-
-@dataclass(frozen=True, slots=True)
-class Stream:
-    """A program's orders, recognised as a satellite's path. `rounding_deg`: 1 for whole degrees."""
-
-    rounding_deg: float
-    ahead_s: tuple[float, float]
-    """The least and the largest lead of the program's clock over the true time, in seconds."""
-
-    @property
-    def departs_deg(self) -> float:
-        """Degrees: an order further from the path is not for this satellite."""
-        return self.rounding_deg + DEPARTS_DEG
-
-    def narrowed(self, apart_deg: Mapping[float, float]) -> tuple[float, ...]:
-        """The clock errors that agree with the latest order. `apart_deg`: its distance from the path, for each."""
-        nearest_deg = min(apart_deg.values())
-        return tuple(
-            ahead_s for ahead_s, deg in apart_deg.items() if deg <= max(nearest_deg, self.rounding_deg) + BEARS_OUT_DEG
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class Fly:
-    """Fly a pass that is known to its end, as planned. Times are on the control loop's clock."""
-
-    name: str
-    path: tuple[tuple[float, float, float], ...]
-    """The target's directions: (moment in s, azimuth, elevation), rising, two or more."""
-    azimuth: AxisPlan
-    elevation: AxisPlan
-    sets_s: float | None = None
-    """When the target sets, if that is after the end of the path; infinite: it does not set."""
-    expected_error_deg: float = 0.0
-    """Largest possible distance of the target from its path."""
-    beyond_beam: bool = False
-    """Whether that distance is more than half of the antenna's beam."""
-    table: bool = False
-    """Whether the path is a person's table."""
-    stream: Stream | None = None
-    """The sender's own stream, which this flight replaces while the orders agree. None: no stream."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,55 +193,3 @@ Pointing = Aim | Fly | LoadTimed | RunTimed | Park
 """Orders that point the antenna somewhere."""
 
 Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave | Personal
-
-
-PAGE = "page"
-"""The page of the box: each of its paired browsers is a connection of this link."""
-CONSOLE, PANEL = "console", "panel"
-KEYBOARD = "keyboard"
-"""The keys of `rotator run`, the space bar among them."""
-PERSONS = (CONSOLE, KEYBOARD, PANEL, "calibrate", PAGE)
-"""The links of persons at the box, in a source. No link of the configuration has one of these names."""
-MQTT = "mqtt"
-"""The broker of [mqtt], as the link of a source. It counts as one program, even if many use the broker."""
-TRACKER = "track"
-"""The tracker, which follows a target for a person, as the link of a source."""
-
-
-@dataclass(frozen=True, slots=True)
-class Source:
-    """The sender of an order: a link, and the connection on it. A reconnect is a new source."""
-
-    link: str
-    connection: int = 0
-    host: str = field(default="", compare=False)
-    """The address of the machine at the other end; empty: not known, or no network."""
-
-    @property
-    def is_person(self) -> bool:
-        """Whether a person gives these orders: at the console, at the panel, on the page, in a calibration."""
-        return self.link in PERSONS
-
-    @property
-    def holds(self) -> bool:
-        """Whether this person's motion holds the antenna until it is given back: on the page a person may look away."""
-        return self.link == PAGE
-
-    @property
-    def may_be_held_off(self) -> bool:
-        """Whether its orders have no effect while a person holds the antenna: programs, and the page of another."""
-        return self.link == PAGE or not (self.is_person or self.link == TRACKER)
-
-    def __str__(self) -> str:
-        return f"{self.link}#{self.connection}" if self.connection else self.link
-
-
-@dataclass(frozen=True, slots=True)
-class Refusal:
-    """Why an order is refused, for the log. The protocol answers in its own words."""
-
-    reason: str
-    forbidden: bool = False
-    """Whether the sender may give no orders at all."""
-    out_of_range: bool = False
-    """Whether the order has an angle outside a range. A tracking program repeats such an order for a long time."""

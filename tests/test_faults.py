@@ -6,9 +6,10 @@ import pytest
 
 from hw.ports import Axis
 from rotator.faults import Fault, FaultKind, Missing
-from rotator.orders import Order, Refusal
+from rotator.orders import Order
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
+from rotator.sources import Refusal
 from rotator.status import AxisStatus, Status
 
 EACH = pytest.mark.parametrize("kind", FaultKind, ids=lambda kind: kind.text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.orders import MQTT, PERSONS, TRACKER, Source
+from rotator.sources import MQTT, PERSONS, TRACKER, Source
 from rotator.spoken import sender, short_sender, spoken
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from rotator.orders import Order, Refusal
+from rotator.orders import Order
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
@@ -16,6 +16,7 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
+from rotator.sources import Refusal
 from rotator.status import AxisStatus, Status
 
 

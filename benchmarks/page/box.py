@@ -21,7 +21,8 @@ from benchmarks.sky_now import as_json, satellite, sets_in
 from rotator.app import App
 from rotator.config.load import load
 from rotator.orbits.earth import Site
-from rotator.orders import Aim, Release, Source
+from rotator.orders import Aim, Release
+from rotator.sources import Source
 
 ROTOR = """
 [state]

@@ -16,8 +16,9 @@ from pathlib import Path
 from benchmarks.soak.crowd import FLIGHTS
 from firmware_sim.clock import SimClock
 from rotator.config.load import parse
-from rotator.orders import Source, Stop
+from rotator.orders import Stop
 from rotator.rehearsal.flight import BoxPlant
+from rotator.sources import Source
 
 HOUR_S = 3600.0
 PAUSE_S = 60.0

@@ -28,7 +28,6 @@ from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
 from rotator.orbits.celestial import Sky
-from rotator.orders import Source
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
@@ -54,6 +53,7 @@ from rotator.protocols.wsjtx import WsjtxSession
 from rotator.runtime.client import Client, Rights
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 
 log = logging.getLogger(__name__)
 

@@ -9,7 +9,9 @@ from __future__ import annotations
 from hw.ports import AngleSource, Axis
 from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.orders import Aim, Calibrate, Confirm, Fly, Home, Jog, LoadTimed, Order, Park, Refusal, RelaysChecked
+from rotator.flight_order import Fly
+from rotator.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, RelaysChecked
+from rotator.sources import Refusal
 from rotator.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}

@@ -21,7 +21,9 @@ from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import AimGoal, Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
-from rotator.orders import BOTH, Aim, Fly, Source
+from rotator.flight_order import Fly
+from rotator.orders import BOTH, Aim
+from rotator.sources import Source
 from rotator.status import Flown
 
 

@@ -10,7 +10,8 @@ import math
 from rotator.control.rights import Deed, State, hindrance, standing_holds
 from rotator.control.senders import PAUSE_S, Senders
 from rotator.control.sky.angles import Coordinates
-from rotator.orders import CONSOLE, PAGE, PANEL, Mode, Source
+from rotator.orders import Mode
+from rotator.sources import CONSOLE, PAGE, PANEL, Source
 from rotator.status import Latch
 
 AGREE_DEG = 4.0

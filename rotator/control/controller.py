@@ -26,15 +26,12 @@ from rotator.control.seen_turning import SeenTurning
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
 from rotator.faults import Notice
+from rotator.flight_order import Fly, Stream
 from rotator.orders import (
     BOTH,
-    PAGE,
-    PANEL,
-    TRACKER,
     Calibrate,
     ClearTimed,
     Confirm,
-    Fly,
     GiveBack,
     Jog,
     Leave,
@@ -47,12 +44,11 @@ from rotator.orders import (
     Release,
     Remark,
     SetMode,
-    Source,
     Speed,
     Stop,
-    Stream,
     Take,
 )
+from rotator.sources import PAGE, PANEL, TRACKER, Source
 from rotator.status import AxisStatus, Status
 
 

@@ -14,7 +14,8 @@ from rotator.control.sky.mount import Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
 from rotator.control.sky.route import Way
-from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
+from rotator.flight_order import PLAN_STEP_S, AxisPlan, Fly
+from rotator.orders import Aim
 from rotator.status import Flown
 
 STEP_TOLERANCE_DEG = 0.3

@@ -19,18 +19,9 @@ from rotator.control.settings import Settings
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
 from rotator.faults import Notice
-from rotator.orders import (
-    BOTH,
-    Aim,
-    Fly,
-    Home,
-    Jog,
-    LoadTimed,
-    Order,
-    Park,
-    RunTimed,
-    Source,
-)
+from rotator.flight_order import Fly
+from rotator.orders import BOTH, Aim, Home, Jog, LoadTimed, Order, Park, RunTimed
+from rotator.sources import Source
 from rotator.status import Flown
 
 

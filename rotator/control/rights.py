@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import Enum
 
+from rotator.flight_order import Fly
 from rotator.orders import (
-    CONSOLE,
-    PANEL,
     Aim,
     Calibrate,
     Confirm,
-    Fly,
     GiveBack,
     Home,
     Jog,
@@ -26,10 +24,10 @@ from rotator.orders import (
     Release,
     RunTimed,
     SetMode,
-    Source,
     Stop,
     Take,
 )
+from rotator.sources import CONSOLE, PANEL, Source
 from rotator.spoken import held_by
 from rotator.status import Status
 

@@ -10,7 +10,8 @@ from collections import deque
 from dataclasses import dataclass, replace
 
 from rotator.control.sky.angles import Coordinates, great_circle_deg, turn_deg
-from rotator.orders import Aim, Order, Source
+from rotator.orders import Aim, Order
+from rotator.sources import Source
 
 PAUSE_S = 10.0
 """Orders further apart than this do not belong together. A silenced stream has an effect again after such a pause."""

@@ -12,8 +12,8 @@ from datetime import datetime
 from rotator import __version__
 from rotator.links.wire import Wire
 from rotator.monitor.transcript import HEADS, At, LinkNote, Peer, Way, encode_at, encode_link, encode_peer, encode_piece
-from rotator.orders import Source
 from rotator.protocols.session import Beating, Inquiry, Session
+from rotator.sources import Source
 from rotator.status import Status
 
 MOVED_DEG = 1.0

@@ -11,12 +11,12 @@ from rotator.control.sky.mount import Mount
 from rotator.mqtt.desk import Desk
 from rotator.mqtt.thread import Broker, MqttThread
 from rotator.mqtt.topics import Topics
-from rotator.orders import MQTT, Source
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Tracking
 from rotator.protocols.status_object import as_object
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import MQTT, Source
 
 
 def build_mqtt(config: Config, loop: ControlLoop, mount: Mount, tracking: Tracking | None) -> MqttThread | None:

@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
+from rotator.flight_order import Fly, Stream
 from rotator.orbits.chance import (
     LINE_CHANCE,
     MOST_LIKELY,
@@ -33,7 +34,9 @@ from rotator.orbits.stream_fit import (
     rounding_deg,
     telling,
 )
-from rotator.orders import Aim, Calibrate, ClearTimed, Fly, Leave, Order, Release, Remark, Source, Speed, Stream
+from rotator.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Speed
+from rotator.program_clock import ProgramClock
+from rotator.sources import Source
 
 ORDERS = 8
 FEW_ORDERS, FEW_S = 3, 8.0
@@ -153,8 +156,7 @@ class _Listener:
         self._next_s = -math.inf
         """Earliest time of the next fit."""
         self._followed: SampledPath | None = None
-        self._clocks_s: tuple[float, ...] = ()
-        """The possible leads of the program's clock, by the orders until now."""
+        self._clock: ProgramClock | None = None
         self.recognised: Recognised | None = None
 
     @property
@@ -219,7 +221,7 @@ class _Listener:
                 return None
         elif not has_told(path, told, rounding) or self._line_chance(path, told, clocks_s, rounding) > LINE_CHANCE:
             return None
-        self._followed, self._clocks_s = path, clocks_s
+        self._followed, self._clock = path, ProgramClock(clocks_s, rounding)
         self.recognised = Recognised(
             self._source, path.satellite, Stream(rounding, ahead_s=(clocks_s[0], clocks_s[-1]))
         )
@@ -236,13 +238,11 @@ class _Listener:
 
     def _departed(self, order: Heard) -> Departed | None:
         """Whether an order is too far from the followed path, for each possible error of the program's clock."""
-        if self.recognised is None or self._followed is None:
+        path, clock = self._followed, self._clock
+        if self.recognised is None or path is None or clock is None:
             return None
-        path, stream = self._followed, self.recognised.stream
-        apart_deg = {clock_s: _apart_deg(path, order, clock_s) for clock_s in self._clocks_s}
-        if min(apart_deg.values()) <= stream.departs_deg:
+        if clock.agrees(lambda clock_s: _apart_deg(path, order, clock_s)):
             path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
-            self._clocks_s = stream.narrowed(apart_deg)
             return None
         departed = Departed(self._source, self.recognised.satellite)
         self._followed = self.recognised = None

@@ -8,7 +8,8 @@ from __future__ import annotations
 from typing import Protocol, runtime_checkable
 
 from rotator.control.sky.timed_table import TimedTable
-from rotator.orders import Order, Refusal
+from rotator.orders import Order
+from rotator.sources import Refusal
 from rotator.status import Status
 
 

@@ -21,7 +21,7 @@ from rotator.assembly.tracking import TrackedBox, build_known_sky, wanted_names
 from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
-from rotator.orders import Order, Source
+from rotator.orders import Order
 from rotator.protocols.gs232 import Command, Dialect, encode
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld import Request
@@ -33,6 +33,7 @@ from rotator.rehearsal.passes import Pass
 from rotator.rehearsal.sky_target import SkyTarget
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 from rotator.status import Status
 from rotator.tracking.next_flight import Now
 from rotator.views.trace import Sample, errors_deg, rms

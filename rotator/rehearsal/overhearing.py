@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 from firmware_sim.clock import SimClock
 from rotator.orbits.sight import Target
-from rotator.orders import Order, Source
+from rotator.orders import Order
 from rotator.rehearsal.at_once import PlansAtOnce
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import Now

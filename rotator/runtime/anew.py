@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable
 
 from hw.ports import Axis
-from rotator.orders import Source
+from rotator.sources import Source
 from rotator.status import Latch, Status
 
 

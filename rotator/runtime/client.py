@@ -13,9 +13,10 @@ from dataclasses import dataclass, replace
 
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount
-from rotator.orders import Leave, Order, Refusal, Source, Stop
+from rotator.orders import Leave, Order, Stop
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Refusal, Source
 from rotator.status import Status
 
 log = logging.getLogger(__name__)

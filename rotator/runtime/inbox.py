@@ -10,7 +10,8 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.orders import Jog, Order, Source
+from rotator.orders import Jog, Order
+from rotator.sources import Source
 
 
 @dataclass(frozen=True, slots=True)

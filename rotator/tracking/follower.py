@@ -15,7 +15,8 @@ from rotator.control.rights import deed_of
 from rotator.control.sky.flight_plan import Antenna
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import GiveBack, Mode, Order, Source
+from rotator.orders import GiveBack, Mode, Order
+from rotator.sources import Source
 from rotator.status import Status
 from rotator.tracking.next_flight import NextFlight, Now
 from rotator.tracking.next_followed import Upcoming, WantedOften

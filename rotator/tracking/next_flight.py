@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.route import Way
+from rotator.flight_order import Fly
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
@@ -20,7 +21,6 @@ from rotator.orbits.rest_of_pass import rest_of_pass
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Target, expected_error_deg
 from rotator.orbits.targets import find
-from rotator.orders import Fly
 
 AHEAD_S = 7 * 86_400.0
 """Longest wait for a target to rise, in seconds."""

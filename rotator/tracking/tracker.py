@@ -15,9 +15,11 @@ from typing import Protocol
 
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.timed_table import TimedTable
+from rotator.flight_order import Fly
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import BOTH, TRACKER, Aim, Fly, LetGo, Order, Park, Release, SetMode, Source, Stop, Take
+from rotator.orders import BOTH, Aim, LetGo, Order, Park, Release, SetMode, Stop, Take
+from rotator.sources import TRACKER, Source
 from rotator.status import Status
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 from rotator.tracking.program import CannotFly, Program

@@ -12,11 +12,12 @@ from typing import Any
 
 from aiohttp import web
 
-from rotator.orders import Jog, Release, Source, Stop
+from rotator.orders import Jog, Release, Stop
 from rotator.protocols.methods import METHODS, Method
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
+from rotator.sources import Source
 from rotator.status import Status
 from rotator.store.paired import Paired
 from rotator.web import assets, openapi, scene_schema

@@ -20,11 +20,12 @@ from rotator.config.model import Config
 from rotator.control.sky.mount import Mount
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap
-from rotator.orders import PAGE, GiveBack, Order, Source, Take
+from rotator.orders import GiveBack, Order, Take
 from rotator.runtime.anew import Anew
 from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import PAGE, Source
 from rotator.store.flown import FlownPasses
 from rotator.store.paired import FILE_NAME, Paired, PairedFile
 from rotator.store.uploads import Uploads

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from hw.ports import Axis
 from rotator.control.sky.known_path import KnownPath
-from rotator.orders import Fly
+from rotator.flight_order import Fly
 from rotator.status import AxisStatus, Status
 from rotator.views.trace import Sample, errors_deg, rms
 

@@ -19,7 +19,8 @@ from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.faults import Missing
-from rotator.orders import Order, Source
+from rotator.orders import Order
+from rotator.sources import Source
 from rotator.status import Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

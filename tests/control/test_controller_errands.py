@@ -22,9 +22,9 @@ from rotator.orders import (
     Release,
     Remark,
     SetMode,
-    Source,
     Stop,
 )
+from rotator.sources import Source
 from rotator.status import Trust
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

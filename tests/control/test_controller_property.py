@@ -12,14 +12,12 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.goals import LONGEST_WAIT_S, UNCALIBRATED_JOG_S
 from rotator.control.commands import Place
 from rotator.faults import Missing
+from rotator.flight_order import AxisPlan, Fly, Step
 from rotator.orders import (
-    CONSOLE,
     Aim,
-    AxisPlan,
     Calibrate,
     ClearTimed,
     Confirm,
-    Fly,
     GiveBack,
     Home,
     Jog,
@@ -35,12 +33,11 @@ from rotator.orders import (
     Remark,
     RunTimed,
     SetMode,
-    Source,
     Speed,
-    Step,
     Stop,
     Take,
 )
+from rotator.sources import CONSOLE, Source
 from tests.search import examples
 
 LINKS = [Source("gs232b", 1), Source("rotctld", 1), Source("console")]

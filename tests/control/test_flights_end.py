@@ -17,7 +17,9 @@ from rotator.control.commands import Steer
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range, Sector
-from rotator.orders import PLAN_STEP_S, TRACKER, Aim, AxisPlan, Fly, Jog, LetGo, Order, Release, Source, Stop
+from rotator.flight_order import PLAN_STEP_S, AxisPlan, Fly
+from rotator.orders import Aim, Jog, LetGo, Order, Release, Stop
+from rotator.sources import TRACKER, Source
 from rotator.status import Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -9,7 +9,8 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.senders import PAUSE_S
 from rotator.faults import Missing
-from rotator.orders import Aim, GiveBack, Jog, Mode, Order, Park, Release, SetMode, Source, Stop, Take
+from rotator.orders import Aim, GiveBack, Jog, Mode, Order, Park, Release, SetMode, Stop, Take
+from rotator.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

@@ -28,10 +28,10 @@ from rotator.orders import (
     Release,
     RunTimed,
     SetMode,
-    Source,
     Stop,
     Take,
 )
+from rotator.sources import Source
 from tests.search import examples
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

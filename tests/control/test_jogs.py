@@ -10,7 +10,8 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.jogs import Jogs
 from rotator.faults import Missing
-from rotator.orders import Jog, Source
+from rotator.orders import Jog
+from rotator.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS = Direction.PLUS

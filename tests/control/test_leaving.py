@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
-from rotator.orders import Aim, Jog, Leave, LoadTimed, Order, Park, Source, Stop
+from rotator.orders import Aim, Jog, Leave, LoadTimed, Order, Park, Stop
+from rotator.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

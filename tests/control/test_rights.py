@@ -27,10 +27,10 @@ from rotator.orders import (
     Release,
     RunTimed,
     SetMode,
-    Source,
     Stop,
     Take,
 )
+from rotator.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

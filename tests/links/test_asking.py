@@ -13,9 +13,9 @@ import pytest
 
 from rotator.links.asking import AskingLink
 from rotator.links.wire import Wire
-from rotator.orders import Source
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.runtime.client import Client
+from rotator.sources import Source
 
 PATIENCE_S = 30.0
 Running = Callable[[AskingLink], Any]

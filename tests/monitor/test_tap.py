@@ -10,12 +10,12 @@ import pytest
 from rotator.links.wire import KEPT_BYTES, Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import HEADS, Way
-from rotator.orders import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.reference.gs232 import Example
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.rotctld_session import RotctldSession
+from rotator.sources import Source
 from rotator.status import Status
 
 GS232, ROTCTLD = Source("gs232b", 1), Source("rotctld", 3)

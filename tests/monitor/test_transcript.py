@@ -23,7 +23,7 @@ from rotator.monitor.transcript import (
     parse,
     unescape,
 )
-from rotator.orders import Source
+from rotator.sources import Source
 
 MOMENT = datetime(2026, 11, 21, 18, 3, 22, 114_600)
 BOX = Source("gs232b", 1)

@@ -11,9 +11,10 @@ from hypothesis import given
 
 from rotator.mqtt.desk import LONGEST, Desk
 from rotator.mqtt.topics import Topics, discovery
-from rotator.orders import MQTT, Aim, Order, Park, Refusal, Source, Stop
+from rotator.orders import Aim, Order, Park, Stop
 from rotator.protocols.methods import METHODS
 from rotator.protocols.operating import Operating
+from rotator.sources import MQTT, Refusal, Source
 from rotator.status import AxisStatus, Status
 
 AT_REST = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))

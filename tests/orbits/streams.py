@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from rotator.orbits.recognition import Departed, Recognised, StreamWatch
 from rotator.orbits.sight import Sight, Target
-from rotator.orders import Aim, Source
+from rotator.orders import Aim
+from rotator.sources import Source
 
 PROGRAM = Source("gs232b")
 Path = Callable[[float], tuple[float, float]]

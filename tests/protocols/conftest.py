@@ -21,8 +21,9 @@ from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.faults import Missing
-from rotator.orders import Aim, Jog, LoadTimed, Order, Park, Refusal, RunTimed, Source
+from rotator.orders import Aim, Jog, LoadTimed, Order, Park, RunTimed
 from rotator.protocols.session import Session
+from rotator.sources import Refusal, Source
 from rotator.status import Status
 
 LINK = Source("link", 1)

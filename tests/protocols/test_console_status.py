@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from hw.ports import Axis
 from rotator.faults import Missing
-from rotator.orders import Order, Refusal, Source
+from rotator.orders import Order
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
+from rotator.sources import Refusal, Source
 from rotator.status import Status
 
 if TYPE_CHECKING:

@@ -13,10 +13,11 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
-from rotator.orders import Aim, Calibrate, Jog, Order, Source, Speed, Stop
+from rotator.orders import Aim, Calibrate, Jog, Order, Speed, Stop
 from rotator.protocols.gs232 import MAX_LINE, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
+from rotator.sources import Source
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from hw.ports import AngleSource
-from rotator.orders import Order, Refusal
+from rotator.orders import Order
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.move_report import MoveReport
+from rotator.sources import Refusal
 from rotator.status import AxisStatus, Status
 
 

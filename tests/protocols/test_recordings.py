@@ -16,8 +16,9 @@ from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.monitor.transcript import At, LinkNote, Piece, Way, parse
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
-from rotator.orders import Order, Refusal
+from rotator.orders import Order
 from rotator.protocols.session import Session
+from rotator.sources import Refusal
 from rotator.status import Status
 
 if TYPE_CHECKING:

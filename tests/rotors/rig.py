@@ -23,9 +23,10 @@ from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.orders import Aim, Order, Source
+from rotator.orders import Aim, Order
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -12,9 +12,10 @@ from hw.ports import Axis
 from rotator.assembly.settings import build_controller, build_learnt, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.load import load
-from rotator.orders import Aim, Calibrate, Order, Source
+from rotator.orders import Aim, Calibrate, Order
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 from rotator.status import LearntMotor
 
 STATION = """

@@ -17,9 +17,10 @@ from rotator.app import App
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.orders import PAGE, Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode, Source
+from rotator.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode
 from rotator.runtime.event_watch import LONGEST_S, TICK_S, EventWatch
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import PAGE, Source
 
 PERIOD_S = 0.05
 LINK, PANEL, CONSOLE = Source("gs232b", 1), Source("panel"), Source("console", 1)

@@ -16,9 +16,10 @@ from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.calibrating.rig import AxisRig
 from rotator.config.load import parse
-from rotator.orders import Aim, Source
+from rotator.orders import Aim
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 
 
 class Fragile:

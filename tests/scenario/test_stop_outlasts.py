@@ -16,8 +16,9 @@ from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.model import Config
-from rotator.orders import Aim, Home, Jog, LoadTimed, Order, Park, Release, Source, Stop
+from rotator.orders import Aim, Home, Jog, LoadTimed, Order, Park, Release, Stop
 from rotator.runtime.loop import ControlLoop
+from rotator.sources import Source
 from rotator.spoken import held_by, spoken
 from rotator.store.latch import LatchFile
 from rotator.views import lcd

@@ -9,7 +9,8 @@ from collections.abc import Callable
 
 import pytest
 
-from rotator.orders import BOTH, TRACKER, Aim, Mode, Order, SetMode, Source, Stop
+from rotator.orders import BOTH, Aim, Mode, Order, SetMode, Stop
+from rotator.sources import TRACKER, Source
 from tests.tracking.tracked_box import Box, pass_of
 
 PC, PANEL = Source("gs232b", 1), Source("panel")

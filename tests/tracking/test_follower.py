@@ -6,7 +6,8 @@ import logging
 
 import pytest
 
-from rotator.orders import Aim, GiveBack, Release, Source, Stop, Take
+from rotator.orders import Aim, GiveBack, Release, Stop, Take
+from rotator.sources import Source
 from tests.search import some
 from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
 

@@ -13,7 +13,8 @@ from hw.ports import Axis, Direction
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, GiveBack, Jog, Mode, Order, Release, SetMode, Source, Stop
+from rotator.orders import BOTH, Aim, GiveBack, Jog, Mode, Order, Release, SetMode, Stop
+from rotator.sources import Source
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
 

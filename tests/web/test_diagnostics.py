@@ -19,7 +19,7 @@ from hypothesis import given
 
 from rotator.config.load import parse
 from rotator.monitor.transcript import Way, encode_piece
-from rotator.orders import Source
+from rotator.sources import Source
 from rotator.status import AxisStatus, Status
 from rotator.web.diagnostics import Known, diagnostics
 from rotator.web.redaction import Redaction, secrets_of, spellings_of_place

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from hw.ports import Direction
-from rotator.orders import AxisPlan, Fly
+from rotator.flight_order import AxisPlan, Fly
 from rotator.status import AxisStatus, Flown, Status
 from rotator.views.pass_svg import Flown as Drawn
 from rotator.views.pass_svg import draw

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import AngleSource
-from rotator.orders import AxisPlan, Fly, Order, Stop
+from rotator.flight_order import AxisPlan, Fly
+from rotator.orders import Order, Stop
 from rotator.status import AxisStatus, Status
 from rotator.web import scene
 from rotator.web.scene import Scene

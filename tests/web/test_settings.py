@@ -12,8 +12,8 @@ import aiohttp
 import pytest
 
 from rotator.config.load import load
-from rotator.orders import Source
 from rotator.runtime.anew import Anew
+from rotator.sources import Source
 from rotator.status import Latch
 from rotator.web.settings import MOST_BODY
 from tests.web.conftest import PATIENCE_S, Box

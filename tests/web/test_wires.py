@@ -16,7 +16,7 @@ import pytest
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap
 from rotator.monitor.transcript import Piece, Way, parse
-from rotator.orders import Source
+from rotator.sources import Source
 from rotator.status import AxisStatus, Status
 from rotator.web.wire_watch import MOST_WATCHERS
 from rotator.web.wires import LONGEST_LINE, MOST_LINES, WireLog

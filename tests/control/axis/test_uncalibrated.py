@@ -9,7 +9,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
-from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, Release, RunTimed, Source, Stop
+from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, Release, RunTimed, Stop
+from rotator.sources import Source
 from tests.search import some
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

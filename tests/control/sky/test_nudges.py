@@ -9,7 +9,9 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.nudges import Nudges
-from rotator.orders import Aim, AxisPlan, Fly, Jog, Mode, Nudge, Park, Release, SetMode, Source, Step, Stop
+from rotator.flight_order import AxisPlan, Fly, Step
+from rotator.orders import Aim, Jog, Mode, Nudge, Park, Release, SetMode, Stop
+from rotator.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 OFF = Direction.OFF
