@@ -57,6 +57,7 @@ from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
 from rotator.sources import KEYBOARD, Source
 from rotator.spoken import held_by
+from rotator.status import NO_TRIES
 from rotator.store import counts
 from rotator.store.tries import NOTHING
 from rotator.views import lcd
@@ -107,8 +108,10 @@ class App:
         self._latch = LatchThread(latch_file.save, stopped)
         kept = learnt.load(), relays_file.begin() if relays_file else None, stopped
         axis = self._anew.sets_up
-        # A person who sets an axis up releases it.
-        tries = tries_file.load() if tries_file and not axis else NOTHING
+        tries = tries_file.load() if tries_file else NOTHING
+        if axis:
+            # A person who sets an axis up releases it. What the file says of the other axis stays as it is.
+            tries = {**tries, axis: NO_TRIES}
         self._tries = LatchThread(tries_file.save if tries_file else lambda _: True, tries, name=TRIES_THREAD)
         self._calibration = _calibration_of(config, axis, path) if axis and path else None
         self.loop = ControlLoop(
@@ -122,7 +125,7 @@ class App:
             events=self._events,
             page_events=page_events,
             keep_latch=self._latch.note,
-            keep_tries=self._tries.note,
+            keep_tries=lambda now: self._tries.note({**tries, axis: now[axis]} if axis else now),
         )
         self._tracking = build_tracking(config, self.loop, mount)
         self._pairings = build_pairings(config, self._tracking.clock_is_known)

@@ -14,15 +14,21 @@ from typing import Any
 import pytest
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
-from hw.ports import AngleSensor, AngleSource, Axis, CharacterDisplay, HardwareError
+from hw.ports import AngleSensor, AngleSource, Axis, CharacterDisplay, Direction, HardwareError
 from hw.safety.guard import GUARD_THREAD
 from rotator.app import App, open_station
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
+from rotator.faults import FaultKind
 from rotator.links.wire import LinkError
+from rotator.orders import Jog
+from rotator.runtime.anew import Anew
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
 from rotator.runtime.sensor_thread import SENSORS_THREAD
+from rotator.sources import Source
+from rotator.status import NO_TRIES, Tries
+from rotator.store.tries import TriesFile
 from tests.boxes import free_port
 
 PATIENCE_S = 60.0
@@ -140,6 +146,31 @@ async def running(app: App) -> AsyncIterator[tuple[SimRelayPotRotor, Relays]]:
 def position(reply: bytes) -> tuple[int, int]:
     assert reply.startswith(b"AZ=")
     return int(reply[3:6]), int(reply[11:14])
+
+
+@pytest.mark.parametrize("axis", list(Axis))
+def test_an_axis_that_is_set_up_on_the_page_is_released_and_the_other_is_not(tmp_path: Path, axis: Axis) -> None:
+    text = f'[state]\npath = "{tmp_path}/state.json"\n[sim]\nworld = "{tmp_path}/world"\n'
+    tried = Tries(2, FaultKind.END_STOP, (440.0, None), (440.0, None))
+    TriesFile(tmp_path / "tries.json").save(dict.fromkeys(Axis, tried))
+    anew, other = Anew(), next(each for each in Axis if each is not axis)
+    anew.sets_up = axis
+
+    async def set_up() -> None:
+        app, stop = App(parse(text, "a test's file"), anew=anew), asyncio.Event()
+        task = asyncio.create_task(app.run(stop))
+        async with asyncio.timeout(PATIENCE_S):
+            while not task.done() and app.loop.status.axis(other).angle_deg is None:
+                await asyncio.sleep(0.01)
+            app.loop.post(Source("console", 1), Jog(other, Direction.PLUS, 0.5))
+            while not task.done() and not app.loop.status.axis(other).tries.driven:
+                await asyncio.sleep(0.01)
+        stop.set()
+        await task
+
+    asyncio.run(set_up())
+    kept = TriesFile(tmp_path / "tries.json").load()
+    assert kept == {each: NO_TRIES if each is axis else tried for each in Axis}
 
 
 # --- running
