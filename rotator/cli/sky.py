@@ -23,7 +23,7 @@ from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import INSTALLED
 from rotator.config.station import no_place
-from rotator.orbits.catalogue import NO_SATELLITES, Catalogue, Unknown
+from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass
 from rotator.orbits.passes import passes as passes_of
@@ -146,7 +146,7 @@ def _sky(config: Config, file: Path | None) -> tuple[Site, Catalogue]:
 def _all(site: Site, catalogue: Catalogue) -> list[Target]:
     """Every satellite whose elements sgp4 takes."""
     if not catalogue.satellites:
-        raise Unknown(NO_SATELLITES)
+        raise Unknown(catalogue.none_known)
     targets: list[Target] = []
     for elements in catalogue.satellites:
         try:

@@ -24,6 +24,8 @@ SUFFIXES = (".tle", ".txt", ".json", ".csv")
 MOST_BYTES = 64_000_000
 """The whole public catalogue as JSON has 20 MB."""
 NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
+MOST_FAULTS = 3
+"""Faults of files in one sentence."""
 STILL_READ = "the files of elements are still being read: try again in a moment"
 _PARENTHESES = re.compile(r"\(([^)]*)\)")
 _AHEAD_S = 10 * DAY_S
@@ -83,6 +85,11 @@ class Catalogue:
         return (*self._missing, *(fault for kept in self._kept.values() for fault in kept.faults))
 
     @property
+    def none_known(self) -> str:
+        """A sentence for a person who names a satellite while none is known: what to write, or what is wrong."""
+        return f"No satellites are known: {'; '.join(self.faults[:MOST_FAULTS])}" if self.faults else NO_SATELLITES
+
+    @property
     def by_file(self) -> dict[Path, tuple[Elements, ...]]:
         """The elements of each file; after a failed read, the earlier ones."""
         return {path: kept.sets for path, kept in self._kept.items()}
@@ -134,7 +141,7 @@ class Catalogue:
         near = difflib.get_close_matches(plain(name), shown, n=3, cutoff=0.6)
         meant = _perhaps(list(dict.fromkeys(shown[each] for each in near)))
         if not self._sets:
-            raise Unknown(f'there is no target "{name}"{meant or "."} {NO_SATELLITES}')
+            raise Unknown(f'there is no target "{name}"{meant or "."} {self.none_known}')
         raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known{meant}')
 
     def _read(self, path: Path) -> _Kept:

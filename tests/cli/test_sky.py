@@ -104,8 +104,9 @@ def test_without_a_place_the_keys_are_named(tmp_path: Path) -> None:
 
 
 def test_without_elements_a_near_name_is_told_all_the_same(tmp_path: Path) -> None:
-    said = said_by(told(tmp_path, "where", "jupitr", elements=tmp_path / "gone.tle"))
-    assert 'there is no target "jupitr"; perhaps Jupiter? No satellites are known: write elements = ' in said
+    gone = tmp_path / "gone.tle"
+    said = said_by(told(tmp_path, "where", "jupitr", elements=gone))
+    assert f'there is no target "jupitr"; perhaps Jupiter? No satellites are known: {gone}: no such file' in said
 
 
 def test_a_file_that_cannot_be_read_is_named_and_the_sun_still_found(tmp_path: Path) -> None:

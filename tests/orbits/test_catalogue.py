@@ -238,3 +238,17 @@ def test_news_are_seen_without_reading_them(tmp_path: Path) -> None:
     assert not catalogue.has_news()
     write(tmp_path / "one.json", json.dumps([MESSAGE | NEWER]), 1_740_000_100)
     assert catalogue.has_news()
+
+
+@pytest.mark.parametrize("content", [None, "", "a web page", "[]"])
+def test_where_the_named_files_give_no_satellite_it_tells_why_and_not_to_name_files(
+    tmp_path: Path, content: str | None
+) -> None:
+    path = tmp_path / "sets.tle"
+    if content is not None:
+        path.write_text(content, encoding="utf-8")
+    catalogue = Catalogue((str(path),))
+    with pytest.raises(Unknown) as told:
+        catalogue.find("iss")
+    assert f"No satellites are known: {path}: " in str(told.value)
+    assert "write elements" not in str(told.value)
