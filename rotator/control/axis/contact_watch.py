@@ -91,8 +91,19 @@ class ContactWatch:
 
     @property
     def unsure(self) -> bool:
-        """A relay may be closed, and the contact has been silent for too long: it will not show that any more."""
-        return self._settled and Trust.DOUBTED in self._trusts.both
+        """A relay may be closed, and the contact will not show that any more: it has been silent for too long, or it
+        has not changed in a run that it was to clear."""
+        return Trust.DOUBTED in self._trusts.both and (self._settled or self._in_vain)
+
+    @property
+    def _in_vain(self) -> bool:
+        """The run of the doubted relay has shown nothing, its coast is over, and the other relay needs no look."""
+        last = self._relays.last
+        if self._relays.closed or self._moments_s or self.homing or not self.looked or last not in BOTH_WAYS:
+            return False
+        over = self._read_s > self._relays.since_s + self._coast_s + CHANGE_READ_S
+        other = self._trusts.of(Direction(-last))
+        return over and self._trusts.of(last) is Trust.DOUBTED and other is Trust.OPEN
 
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""

@@ -179,6 +179,16 @@ def test_a_tap_in_which_the_contact_did_not_change_ends_no_doubt(way: Direction)
     assert shaft.watch.accuse(Direction(-way)) is None
 
 
+@pytest.mark.parametrize(("changes", "waits_s"), [(0, COAST_S + 0.2), (1, 3.5)])
+def test_a_doubted_relay_whose_run_showed_nothing_is_given_up_after_its_coast(changes: int, waits_s: float) -> None:
+    """Its contact sticks: a motor that still has current would turn on unseen until the supply is cut."""
+    shaft = doubted(PLUS)
+    shaft.run(PLUS, changes=changes)
+    assert not shaft.watch.unsure
+    shaft.pass_by(waits_s)
+    assert shaft.watch.unsure is (changes == 0)
+
+
 def test_a_run_the_other_way_says_nothing_of_the_relay_in_doubt() -> None:
     shaft = doubted(PLUS)
     shaft.run(MINUS)
