@@ -17,8 +17,9 @@ from multiprocessing import get_context
 from benchmarks.passes import mean
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.rehearsal.flight import Summary, fly, plant_maker
+from rotator.rehearsal.flight import fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, read_pass
+from rotator.rehearsal.summary import Summary
 from rotator.views.trace import Sample
 
 AWAY_DEG = 10.0

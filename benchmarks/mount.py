@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from rotator.config.load import parse
-from rotator.rehearsal.flight import SAMPLE_S, fly, plant_maker
+from rotator.rehearsal.flight import fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
+from rotator.rehearsal.summary import SAMPLE_S
 from rotator.views.trace import Sample
 
 OFF_DEG = 10.0

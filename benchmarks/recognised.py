@@ -35,9 +35,11 @@ from rotator.orbits.elements import Elements
 from rotator.orbits.passes import passes
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.rehearsal.flight import SAMPLE_S, Plant, Summary, fly, plant_maker
+from rotator.rehearsal.flight import fly, plant_maker
 from rotator.rehearsal.overhearing import Told
 from rotator.rehearsal.passes import Pass
+from rotator.rehearsal.plants import Plant
+from rotator.rehearsal.summary import SAMPLE_S, Summary
 
 PASSES, SATELLITES = 40, 30
 LEAST_DEG = 10.0

@@ -17,7 +17,7 @@ from firmware_sim.clock import SimClock
 from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.load import parse
 from rotator.control.sky.angles import turn_deg
-from rotator.rehearsal.flight import BoxPlant
+from rotator.rehearsal.plants import BoxPlant
 
 HALF = "[sim.azimuth]\nspeed_dps = 3.0\n[sim.elevation]\nspeed_dps = 1.35\n"
 TWICE = "[sim.azimuth]\nspeed_dps = 12.0\n[sim.elevation]\nspeed_dps = 5.4\n"

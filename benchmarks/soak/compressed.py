@@ -17,7 +17,7 @@ from benchmarks.soak.crowd import FLIGHTS
 from firmware_sim.clock import SimClock
 from rotator.config.load import parse
 from rotator.orders import Stop
-from rotator.rehearsal.flight import BoxPlant
+from rotator.rehearsal.plants import BoxPlant
 from rotator.sources import Source
 
 HOUR_S = 3600.0

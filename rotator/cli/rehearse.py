@@ -29,9 +29,10 @@ from rotator.config.axes import AxisTable
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.protocols.table_text import FORM
-from rotator.rehearsal.flight import Summary, fly, plant_maker
+from rotator.rehearsal.flight import fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
 from rotator.rehearsal.sky_target import next_pass
+from rotator.rehearsal.summary import Summary
 from rotator.store.whole import write_whole
 from rotator.views.pass_svg import Flown, draw
 from rotator.views.trace import Sample

@@ -1,238 +1,22 @@
-"""A rehearsal: the box, or the emulated Arduino, follows a satellite pass in simulated time.
+"""A rehearsal: the box, or the emulated Arduino, follows a satellite pass in simulated time, and a trace is recorded.
 
-Builds the same parts as the real box, but on simulated chips and a simulated clock; orders go through a protocol. Knows
-the order rate, what is recorded, and how the pointing error is summed up. Does not decide how the antenna is pointed.
+Knows which plant is asked for, with which faults, and that the target of a recognised stream is where the satellite
+really was. Does not know by which orders a plant follows the pass, nor how the errors are summed up.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any, Protocol
+from dataclasses import replace
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
-from rotator.assembly.arduino import arduino_station
-from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
-from rotator.assembly.simulation import simulated_boom
-from rotator.assembly.station import Station
-from rotator.assembly.tracking import TrackedBox, build_known_sky, wanted_names
 from rotator.config.model import Config
-from rotator.control.sky.flight_plan import Antenna, plan_flight
-from rotator.control.sky.known_path import KnownPath
-from rotator.orders import Order
-from rotator.protocols.gs232 import Command, Dialect, encode
-from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.rotctld import Request
-from rotator.protocols.rotctld import encode as encode_request
-from rotator.protocols.rotctld_session import RotctldSession
-from rotator.protocols.session import Session
-from rotator.rehearsal.overhearing import Overhearing, Told
 from rotator.rehearsal.passes import Pass
+from rotator.rehearsal.plants import ArduinoPlant, BoxPlant, Plant
 from rotator.rehearsal.sky_target import SkyTarget
-from rotator.runtime.client import Client
-from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.status import Status
-from rotator.tracking.next_flight import Now
-from rotator.views.trace import Sample, errors_deg, rms
-
-SAMPLE_S = 0.05
-KNOWN_S = 120.0
-"""So long before its beginning the box knows a pass that it tracks by itself."""
-FIRST_LOOK_S = 1.0
-"""After this the box has read its sensors."""
-
-
-@dataclass(frozen=True, slots=True)
-class Summary:
-    """Great-circle error between target and antenna while the satellite is up, and the work of relays and motors."""
-
-    rms_deg: float
-    p95_deg: float
-    max_deg: float
-    relay_starts: int | None
-    motor_s: float
-    recognised: Told | None = None
-    """The satellite that the box has recognised in the stream; None: none."""
-    faults: tuple[str, ...] = ()
-    """The faults that hold an axis at the end, each in a sentence."""
-
-    def as_dict(self) -> dict[str, object]:
-        return _rounded(asdict(self))
-
-
-class Plant(Protocol):
-    """The controller that follows the pass: the box, or the emulated Arduino."""
-
-    early_s: float
-    """So long before the pass begins it hears of all of it; 0: it hears an order a second."""
-
-    def announce(self, flown: Pass, begin_s: float) -> None:
-        """Let it know the whole pass, which begins at that moment."""
-
-    def order(self, azimuth_deg: float, elevation_deg: float) -> None: ...
-
-    def run_until(self, moment_s: float) -> None: ...
-
-    def pointing(self) -> tuple[float, float, int, int]:
-        """The boom's azimuth and elevation in degrees, then the drive of each axis: -1, 0 or 1."""
-
-    def relay_starts(self) -> int | None:
-        """None: there are no relays."""
-
-    def recognised(self) -> Told | None:
-        """The satellite that it has recognised in its orders."""
-
-    def true_direction(self, now_s: float) -> tuple[float, float] | None:
-        """Where that satellite really was; None: it has recognised none."""
-
-    def faults(self) -> tuple[str, ...]:
-        """The faults that hold an axis now, each in a sentence."""
-
-
-class BoxPlant:
-    """The box, from its protocol to its relays, on simulated chips.
-
-    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand.
-    """
-
-    def __init__(
-        self,
-        config: Config,
-        clock: SimClock,
-        start_deg: tuple[float, float],
-        via: str,
-        *,
-        utc_s: float | None = None,
-        target: SkyTarget | None = None,
-    ) -> None:
-        """`target`: what the box tracks by itself, by its own elements; None: it gets the pass.
-
-        `utc_s`: when the pass begins; None: no satellite is recognised.
-        """
-        self.early_s = KNOWN_S if via == "track" or target else 0.0
-        self._target = target
-        self._clock = clock
-        self._period_s = 1 / config.control.rate_hz
-        shift = build_offsets(config)
-        start_deg = (start_deg[0] - shift.azimuth_deg, start_deg[1] - shift.elevation_deg)
-        station = Station(config, clock, clock.sleep, start_deg, add_alarm=clock.add_alarm)
-        assert station.world is not None, "a rehearsal is always simulated"
-        self.world: SimRotor = station.world
-        self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
-        self._mount = build_mount(config)
-        self._boom = simulated_boom(config)
-        self._motors = planned_motors(config)
-        client = Client(self._loop, self._mount, Source(via), clock=clock)
-        self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
-        self._encode = _rotctld_order if via == "rotctld" else _gs232_order
-        self._overhearing: Overhearing | None = None
-        if utc_s is not None:
-            apart_s = utc_s - clock()
-            box, sky = TrackedBox(config, self._loop, self._mount), build_known_sky(config)
-            wanted = wanted_names(config.sky, sky)
-            self._overhearing = Overhearing(self._loop, sky, box, clock, lambda: clock() + apart_s, wanted=wanted)
-
-    def inject(self, at_s: float, name: str) -> None:
-        """Let the named fault begin at this moment of simulated time."""
-        pending = [at_s]
-
-        def begin(_now_s: float) -> None:
-            pending.clear()
-            self.world.inject(name)
-
-        self._clock.add_alarm(lambda: pending[0] if pending else None, begin)
-
-    @property
-    def status(self) -> Status:
-        return self._loop.status
-
-    def post(self, source: Source, order: Order) -> None:
-        """Give an order without the protocol, from the console for example."""
-        self._loop.post(source, order)
-
-    def order(self, azimuth_deg: float, elevation_deg: float) -> None:
-        self._session.receive(self._encode(azimuth_deg, elevation_deg))
-
-    def announce(self, flown: Pass, begin_s: float) -> None:
-        if self._target is not None:
-            tracker = self._target.tracker(self._loop, self._mount)
-            if refused := tracker.track(self._target.words):
-                raise ValueError(refused)
-            apart_s = self._target.begin_utc_s - begin_s
-            self._clock.every(1.0, lambda now_s: tracker.step(Now(now_s + apart_s, now_s)))
-            return
-        path = KnownPath(tuple((begin_s + t_s, az_deg, el_deg) for t_s, az_deg, el_deg in flown.rows))
-        plan = plan_flight(flown.name, path, self._antenna(), self._clock())
-        self._loop.post(Source("track"), plan.order)
-
-    def _antenna(self) -> Antenna:
-        stands_deg = self.status.azimuth.angle_deg or 0.0, self.status.elevation.angle_deg or 0.0
-        return Antenna(self._mount, *self._motors, stands_deg)
-
-    def run_until(self, moment_s: float) -> None:
-        first, last = (math.ceil(at_s / self._period_s - 1e-9) for at_s in (self._clock(), moment_s + self._period_s))
-        for count in range(first, last):
-            self._clock.sleep_until(count * self._period_s)
-            self._loop.cycle()
-            if self._overhearing is not None:
-                self._overhearing.look()
-
-    def pointing(self) -> tuple[float, float, int, int]:
-        azimuth_deg, elevation_deg = self._boom(*self.world.antenna())
-        drives = self.world.drives()
-        if self.world.relay_starts is None:
-            drives = int(self.status.azimuth.drive), int(self.status.elevation.drive)
-        return azimuth_deg, elevation_deg, *drives
-
-    def relay_starts(self) -> int | None:
-        return self.world.relay_starts
-
-    def recognised(self) -> Told | None:
-        return self._overhearing.told if self._overhearing else None
-
-    def true_direction(self, now_s: float) -> tuple[float, float] | None:
-        return self._overhearing.true_direction(now_s) if self._overhearing else None
-
-    def faults(self) -> tuple[str, ...]:
-        return tuple(map(str, self.status.faults))
-
-
-class ArduinoPlant:
-    """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
-
-    early_s = 0.0
-
-    def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float]) -> None:
-        self._station = arduino_station(config, clock, clock.sleep, start_deg)
-
-    def announce(self, flown: Pass, begin_s: float) -> None:
-        """It knows orders alone."""
-
-    def order(self, azimuth_deg: float, elevation_deg: float) -> None:
-        self._station.host_send(_gs232_order(azimuth_deg, elevation_deg))
-
-    def run_until(self, moment_s: float) -> None:
-        self._station.run_until(moment_s)
-
-    def pointing(self) -> tuple[float, float, int, int]:
-        boom = self._station.antenna()
-        return boom.azimuth_deg, boom.elevation_deg, *self._station.drives()
-
-    def relay_starts(self) -> int:
-        return self._station.relay_starts
-
-    def recognised(self) -> None:
-        """It knows no satellites."""
-
-    def true_direction(self, now_s: float) -> None:
-        """It knows no satellites."""
-
-    def faults(self) -> tuple[str, ...]:
-        return ()  # the sketch knows none
-
+from rotator.rehearsal.summary import SAMPLE_S, Summary, summarise
+from rotator.views.trace import Sample
 
 Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
 """Which faults the simulated rotor has: (moment in seconds, name)."""
@@ -287,17 +71,9 @@ def fly(
         target_az_deg, target_el_deg = flown.at(t_s)
         trace.append(Sample(t_s, target_az_deg, target_el_deg, *plant.pointing()))
 
-    def order(now_s: float) -> None:
-        azimuth_deg, elevation_deg = flown.at(now_s - begin_s)
-        plant.order(azimuth_deg, max(0.0, elevation_deg))
-
     clock.every(SAMPLE_S, sample)
     clock.every(1.0, lambda now_s: progress(now_s - begin_s))
-    if plant.early_s:
-        plant.run_until(begin_s - plant.early_s + FIRST_LOOK_S)
-        plant.announce(flown, begin_s)
-    else:
-        clock.every(1.0, order)
+    plant.begin(flown, begin_s)
     plant.run_until(begin_s + flown.end_s)
     if plant.recognised() is not None:  # the clock of the program that sent the pass may have been wrong
         trace = [_judged(sample, plant.true_direction(begin_s + sample.t)) for sample in trace]
@@ -307,30 +83,3 @@ def fly(
 def _judged(sample: Sample, true_deg: tuple[float, float] | None) -> Sample:
     """The same sample, with the target where it really was."""
     return sample if true_deg is None else replace(sample, target_az=true_deg[0], target_el=true_deg[1])
-
-
-def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
-    """The errors that count; the motors' time over the whole trace."""
-    errors = errors_deg(trace) or [0.0]
-    return Summary(
-        rms_deg=rms(errors),
-        p95_deg=errors[min(len(errors) - 1, math.ceil(0.95 * len(errors)) - 1)],
-        max_deg=errors[-1],
-        relay_starts=relay_starts,
-        motor_s=sum(abs(sample.az_drive) + abs(sample.el_drive) for sample in trace) * SAMPLE_S,
-    )
-
-
-def _rounded(values: dict[str, Any]) -> dict[str, object]:
-    return {
-        key: _rounded(value) if isinstance(value, dict) else round(value, 3) if isinstance(value, float) else value
-        for key, value in values.items()
-    }
-
-
-def _gs232_order(azimuth_deg: float, elevation_deg: float) -> bytes:
-    return encode(Command("W", azimuth_deg, elevation_deg))
-
-
-def _rotctld_order(azimuth_deg: float, elevation_deg: float) -> bytes:
-    return encode_request(Request("set_pos", (f"{azimuth_deg:.2f}", f"{elevation_deg:.2f}")))

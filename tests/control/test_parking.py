@@ -11,7 +11,7 @@ from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range
 from rotator.orders import Aim, Jog, LetGo, Mode, Order, Park, Release, RunTimed, SetMode, Stop
-from rotator.rehearsal.flight import BoxPlant
+from rotator.rehearsal.plants import BoxPlant
 from rotator.sources import Source
 
 LINK, CONSOLE = Source("gs232b", 1), Source("console")

@@ -10,8 +10,9 @@ from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
 from rotator.config.load import parse
 from rotator.orders import Aim, Jog
-from rotator.rehearsal.flight import BoxPlant, fly
+from rotator.rehearsal.flight import fly
 from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
+from rotator.rehearsal.plants import BoxPlant
 
 NOISY = "[sim.azimuth]\npot_noise_deg = 0.4\n[sim.elevation]\npot_noise_deg = 0.4\n"
 FARTHEST_DEG, NEAR_DEG = 450.0, 70.0
