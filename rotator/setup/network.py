@@ -8,6 +8,7 @@ as a remark, so that the way back gives the same bytes.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -122,13 +123,30 @@ def _replaced(text: str, table: Place, ours: list[str]) -> str:
         (each.line for each in statements(text) if each.brackets and each.line in lines.get(table, ())), None
     )
     if not taken and heading is None:
+        if len(table) > 1:
+            raise SetupError(f"this [[link]] has no heading of its own here: write {ours[0]} there, or give it one")
         return _appended(text, [f"[{table[0]}]", *ours])
     first = min(taken, default=heading or 0)
     end = "\r" if rows[min(first, len(rows) - 1)].endswith("\r") else ""
-    was = [_WAS + rows[at] for at in sorted(taken)]
-    block = [row + end for row in (BEGIN, *(row.removesuffix("\r") for row in was), *ours, END)]
-    kept = [row for at, row in enumerate(rows) if at not in taken]
-    return "\n".join([*kept[:first], *block, *kept[first:]])
+    result: list[str] = []
+    done = 0
+    # Lines apart from each other get marks of their own, so that each goes back to its place.
+    for run in _runs(taken) or [range(first, first)]:
+        was = [_WAS + row for row in rows[run.start : run.stop]]
+        result += [*rows[done : run.start], BEGIN + end, *was, *(line + end for line in ours), END + end]
+        ours, done = [], run.stop
+    return "\n".join([*result, *rows[done:]])
+
+
+def _runs(numbers: Iterable[int]) -> list[range]:
+    """The numbers in rising order, neighbours in one range."""
+    runs: list[range] = []
+    for number in sorted(numbers):
+        if runs and runs[-1].stop == number:
+            runs[-1] = range(runs[-1].start, number + 1)
+        else:
+            runs.append(range(number, number + 1))
+    return runs
 
 
 def closed(text: str) -> str:

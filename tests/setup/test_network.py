@@ -164,6 +164,14 @@ def test_a_page_without_a_heading_is_left_to_the_person(card: Card, page: str) -
     assert card.files() == before
 
 
+def test_links_without_a_heading_are_left_to_the_person(card: Card) -> None:
+    card.rotator.write_text('link = [{ protocol = "rotctld", tcp = "127.0.0.1:99" }]\n')
+    before = card.files()
+    said = card.setup("network", "--allow", "192.168.1.0/24", "--yes")
+    assert 'has no heading of its own here: write tcp = "0.0.0.0:99" there' in " ".join(said.text.split())
+    assert card.files() == before
+
+
 def test_a_line_of_the_person_s_between_the_marks_stays(card: Card) -> None:
     card.setup("network", "--allow", "all", "--yes")
     card.rotator.write_text(card.rotator.read_text().replace(END, f"read_only = true\n{END}"))
@@ -184,8 +192,13 @@ def test_the_installer_announces_the_same(with_avahi: Card) -> None:
     st.sampled_from([SIMULATED, *profiles()]),
     st.sampled_from([None, "10.0.0.0/8"]),
     st.sampled_from(["\n", "\r\n"]),
-    st.sampled_from(["", '\nallow = [\n  "10.1.0.0/16",  # home\n]', '\nallow = ["10.1.0.0/16"]']),
-    st.sampled_from(["", "[page]\n", '[page]\nreading = "paired"\nallow = ["10.1.0.0/16"]\n', "[page]  # mine\n"]),
+    st.permutations(["", '\nallow = [\n  "10.1.0.0/16",  # home\n]', "\nread_only = true"]).map("".join),
+    st.one_of(
+        st.sampled_from(["", "[page]\n", "[page]  # mine\n"]),
+        st.permutations(['reading = "paired"\n', 'allow = ["10.1.0.0/16"]\n', 'listen = "127.0.0.1:8232"\n']).map(
+            lambda keys: "".join(("[page]\n", *keys))
+        ),
+    ),
 )
 def test_every_shipped_file_opens_and_comes_back_to_the_byte(
     name: str, allow: str | None, end: str, more: str, page: str
