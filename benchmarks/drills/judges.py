@@ -157,18 +157,18 @@ class Judges:
 
     def look(self, now_s: float, axes: list[AxisTruth]) -> None:
         self._past_s, self._now_s = now_s - self._now_s, now_s
-        stops_s = self._orders.acknowledged_s, self._orders.ended_at_s
+        stops_s = self._orders.stops.acknowledged_s, self._orders.ended_at_s
         if stops_s != (self._acknowledged_s, self._ended_s):
             self._acknowledged_s, self._ended_s = stops_s
             for truth, case in zip(axes, self.cases, strict=True):
                 case.beyond_s = case.standing_s = 0.0  # the next order is another try, also where current flows on
                 case.winds_down_s = now_s if truth.relayed else now_s + truth.coasts_s + START_S
-        if self._orders.released_s != self._released_s:
-            self._released_s = self._orders.released_s
+        if self._orders.stops.released_s != self._released_s:
+            self._released_s = self._orders.stops.released_s
             for case in self.cases:
                 case.tries_s.clear()
                 case.at_stops_s = 0.0
-        pressed, self._pressed_s = self._orders.pressed_s != self._pressed_s, self._orders.pressed_s
+        pressed, self._pressed_s = self._orders.button.pressed_s != self._pressed_s, self._orders.button.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
             if pressed and truth.name == self._orders.lacking and not case.shows_ends:
                 case.press()
@@ -225,7 +225,7 @@ class Judges:
         case.idle_s += self._past_s
         if case.idle_s > winds_down_s:
             last_s = self._orders.ended_s(truth.name)
-            judge = AFTER_STOP if self._orders.latched or last_s else NO_ORDER
+            judge = AFTER_STOP if self._orders.stops.latched or last_s else NO_ORDER
             self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")
 
     def _welded(self, truth: AxisTruth, case: AxisCase) -> None:

@@ -166,8 +166,8 @@ class _Play:
         self._sectors.look(now_s, self._world.axes)
         ordered = self._orders.sure and any(map(self._orders.holds, self._orders.axes))
         there = self._judges.there(self._world.axes)
-        if self._orders.acknowledged_s != self._acknowledged_s:
-            self._acknowledged_s = self._orders.acknowledged_s
+        if self._orders.stops.acknowledged_s != self._acknowledged_s:
+            self._acknowledged_s = self._orders.stops.acknowledged_s
             self._silence.acknowledged()
         elsewhere = self._judges.elsewhere(self._world.axes) if self._orders.sure else frozenset()
         status = self._box.loop.status

@@ -137,7 +137,7 @@ def test_a_stop_holds_over_a_restart_until_a_person_resumes(stopper: tuple[str, 
     script.say(*stopper)
     restart(script)
     script.say("gs232b", "aim", 90.0, 45.0)
-    assert script.orders.latched
+    assert script.orders.stops.latched
     assert script.moves == (False, False)
     if stopper[0] == "panel":
         script.say("panel", "stop", "pull")
@@ -150,7 +150,7 @@ def test_a_stop_that_the_program_had_no_time_to_take_may_be_lost() -> None:
     script = Script()
     script.orders.note(Event(script.now_s, "console", "stop", ()))
     script.orders.forget_all(script.now_s + 0.1)
-    assert not script.orders.latched
+    assert not script.orders.stops.latched
 
 
 def test_a_restart_releases_no_mode_switch() -> None:
