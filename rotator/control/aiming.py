@@ -15,10 +15,11 @@ from rotator.control.flight import Flight
 from rotator.control.following import Following
 from rotator.control.going_round import GoingRound
 from rotator.control.sky.angles import Coordinates
+from rotator.control.sky.goal import AimGoal, Goals
 from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import Nudges
-from rotator.control.sky.pointing import AimGoal, Goals, Pointing
+from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
 from rotator.flight_order import Fly

@@ -9,10 +9,10 @@ from bisect import bisect_right
 
 from hw.ports import Axis
 from rotator.control.following import Following
+from rotator.control.sky.goal import EVEN, AimGoal
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
-from rotator.control.sky.pointing import EVEN, AimGoal
 from rotator.control.sky.route import Way
 from rotator.flight_order import PLAN_STEP_S, AxisPlan, Fly
 from rotator.orders import Aim

@@ -13,9 +13,9 @@ from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.control.sky.detour import BESIDE_DEG, Detour, Detours
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.plan import Path
-from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.route import Speeds
 from rotator.control.sky.sectors import Box, Place
 from rotator.faults import Notice

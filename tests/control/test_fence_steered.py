@@ -11,8 +11,8 @@ from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.commands import HOLD, Command, Run, Steer
 from rotator.control.fence import Fence
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Mount, Range, Sector
-from rotator.control.sky.pointing import AimGoal
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

@@ -14,7 +14,7 @@ from rotator.control.axis.goals import HomeGoal, JogGoal, jog
 from rotator.control.axis.readings import NORMAL
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import AxisSettings
-from rotator.control.sky.pointing import AimGoal
+from rotator.control.sky.goal import AimGoal
 from rotator.faults import Fault, Missing, Notice
 from rotator.status import AxisStatus
 

@@ -1,6 +1,6 @@
 """The goals of an axis beside a target: a jog, and the way to its end stop.
 
-Knows values. `sky.pointing.AimGoal` is the third kind of goal. Knows no motor.
+Knows values. `sky.goal.AimGoal` is the third kind of goal. Knows no motor.
 """
 
 from __future__ import annotations

@@ -11,8 +11,8 @@ from typing import Protocol
 from hw.ports import Direction
 from rotator.control.axis.readings import Reading
 from rotator.control.commands import Command, Decision, Steer
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
-from rotator.control.sky.pointing import AimGoal
 from rotator.faults import Fault, Missing, Notice
 from rotator.status import AxisStatus
 

@@ -24,9 +24,9 @@ from rotator.control.axis.stray_watch import SERVO_STRAY_DEG, STRAY_DEG, StrayWa
 from rotator.control.axis.trend import Trend
 from rotator.control.commands import HOLD, Command, Decision, Steer
 from rotator.control.refused import Refused
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
-from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Notice
 from rotator.status import AxisStatus, Tries

@@ -26,8 +26,8 @@ from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.axis.vain_presses import IN_VAIN
 from rotator.control.commands import UNFED, Command, Decision, Feed, Run, Steer
 from rotator.control.refused import Refused
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
-from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.status import AxisStatus

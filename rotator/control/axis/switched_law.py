@@ -18,9 +18,9 @@ from rotator.control.axis.motion import Motion, Motor
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS
 from rotator.control.commands import Run
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path, next_place_deg
-from rotator.control.sky.pointing import AimGoal
 from rotator.status import JOG_ENDS_DEG, LearntMotor
 
 LEAST_SHARE = 0.55

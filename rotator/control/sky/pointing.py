@@ -7,10 +7,9 @@ Knows nothing of the sender, of faults, or of how an axis reaches its goal.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
 
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
+from rotator.control.sky.goal import EVEN, AimGoal, Goals
 from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
@@ -28,29 +27,6 @@ LEAST_WEIGHT = 0.1
 """Near the zenith azimuth hardly matters, but an antenna that a person sends there shall turn all the same."""
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
-EVEN = (1.0,) * len(OFFSETS_S)
-
-
-@dataclass(frozen=True, slots=True)
-class AimGoal:
-    """A target, with its path where it moves. The tolerance is the axis's own, or on the sky along a path."""
-
-    target_deg: float
-    tolerance_deg: float
-    path: Path | None = None
-
-    def mapped(self, to_deg: Callable[[float], float]) -> AimGoal:
-        """The same, each of its angles elsewhere."""
-        path = None if self.path is None else replace(self.path, angles_deg=[*map(to_deg, self.path.angles_deg)])
-        return replace(self, target_deg=to_deg(self.target_deg), path=path)
-
-    def standing(self) -> AimGoal:
-        """The same target without its path."""
-        return self if self.path is None else replace(self, path=None)
-
-
-Goals = tuple[AimGoal, AimGoal | None]
-"""For azimuth and elevation; None: elevation keeps what it has."""
 
 
 class Pointing:

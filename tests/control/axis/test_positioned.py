@@ -12,9 +12,9 @@ from rotator.control.axis.sensing import RIDDEN_S
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import STRAY_S
 from rotator.control.commands import HOLD, Steer
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import OFFSETS_S, Path
-from rotator.control.sky.pointing import AimGoal
 from rotator.faults import FaultKind, Missing
 
 LEASE_S = 0.25

@@ -7,8 +7,8 @@ import pytest
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.readings import Condition, Reading
 from rotator.control.commands import HOLD, Steer
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
-from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import FaultKind, Missing, Notice
 from tests.control.axis.test_positioned import LEASE_S, STEP_S, Motor, path

@@ -16,8 +16,8 @@ from rotator.control.axis.readings import Condition, Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Feed, Run, Unfed
+from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
-from rotator.control.sky.pointing import AimGoal
 from rotator.faults import Missing
 from rotator.status import ALL_OPEN, Trusts
 from rotator.store.relays import after
