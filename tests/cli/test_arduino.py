@@ -23,7 +23,7 @@ def slow_enough(tmp_path: Path) -> Path:
 
 def test_it_moves_to_where_it_is_sent_and_answers_nothing(start: Start, slow_enough: Path, tmp_path: Path) -> None:
     uno = start("arduino", "--config", slow_enough, "--pty", tmp_path / "run" / "uno")
-    uno.until(r"F1EFW sketch on an emulated UNO: \S*/run/uno \([^)]*/dev/pts/\d+\)\n")
+    uno.until(r"F1EFW sketch on an emulated UNO: \S*/run/uno \(ready\)\n")
     uno.until("SAT A:000 E:000.*ANT A:000 E:000")
     line = os.open(tmp_path / "run" / "uno", os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
     try:

@@ -58,7 +58,7 @@ def test_a_table_is_flown_and_its_mistakes_are_told_with_their_lines(
     assert mistaken.returncode == 1
     assert "back.csv:4: t must rise from row to row: 40 comes after 100" in mistaken.stderr
     assert rotator_here("track", "pass.csv", "--config", config).stdout == (
-        "pass begins in 2 min. The antenna waits for it there.\n"
+        "The table pass.csv begins in 2 min. The antenna waits for it there.\n"
     )
     tracks = json.loads(rotator_here("where", "--json", "--config", config).stdout)["tracks"]
     assert tracks["name"] == "pass"

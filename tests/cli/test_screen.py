@@ -33,7 +33,7 @@ def box(start_in_terminal: Start, config: Path) -> Any:
 def test_the_picture_shows_the_display_the_axes_and_the_links(box: Any, send: Send) -> None:
     picture_with(box, "SIMULATED", "SAT A:--- E:---", "SIM A:000 E:000", "gs232b", "450", "180")
     send(b"W235 025\r")
-    picture_with(box, "SAT A:235 E:025", r"W235 025\r", "orders from gs232b#1", "●")
+    picture_with(box, "SAT A:235 E:025", r"W235 025\r", "orders from gs232b (", "●")
     picture_with(box, "SIM A:23", without=("●",))
     box.press("q")
     assert box.ends() == 0
@@ -44,7 +44,7 @@ def test_space_stops_and_latches_and_resume_releases(box: Any, send: Send) -> No
     send(b"R\r")
     picture_with(box, "● CW", without=("SIM A:000",))  # so far from its limit that it can turn back
     box.press(" ")
-    picture_with(box, "STOPPED by console", HELD, without=("●",))
+    picture_with(box, "STOPPED by the keyboard", HELD, without=("●",))
     send(b"L\r")
     # The order has been heard, and nothing comes of it.
     picture_with(box, r"L\r", HELD, without=("●",))
@@ -112,7 +112,7 @@ def test_keys_act_where_nothing_can_be_drawn(start_in_terminal: Start, config: P
     box.until("keys: space STOP, q quit")
     assert "╭" not in box.until("azimuth 0°  elevation 0°")
     box.press(" ")
-    box.until("STOPPED by console")
+    box.until("STOPPED by the keyboard")
     box.press("resume\r")
     box.until("resume: done")
     box.press("q")
