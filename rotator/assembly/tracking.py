@@ -13,6 +13,7 @@ from pathlib import Path
 
 from rotator.assembly.settings import build_mount, planned_motors
 from rotator.assembly.sky import build_catalogue, build_later_catalogue, build_site
+from rotator.config.mistake import counted
 from rotator.config.model import Config
 from rotator.config.sky import SkyTable
 from rotator.control.admission import refusal
@@ -35,7 +36,7 @@ from rotator.tracking.next_followed import WantedOften
 from rotator.tracking.planner import ProcessPlanner
 from rotator.tracking.system_clock import SystemClock
 from rotator.tracking.thread import TrackingThread
-from rotator.tracking.tracker import TRACK, Tracker
+from rotator.tracking.tracker import NO_PLAN, TRACK, Tracker
 
 log = logging.getLogger(__name__)
 
@@ -46,7 +47,9 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     sky = KnownSky(build_site(config.station), build_later_catalogue(config, reader.read))
     clock, simulated = SystemClock(), config.rotor.hardware == "sim"
     # A simulated rotor may live at any time.
-    tracker = Tracker(sky, planner, box, lambda: simulated or clock.is_set)
+    tracker = Tracker(
+        sky, planner, box, lambda: simulated or clock.is_set, why_no_plan=lambda: why_no_plan(config.sky, sky)
+    )
     priorities = build_priorities(config)
 
     def wanted() -> list[str]:
@@ -86,7 +89,7 @@ def wanted_often(
     found: dict[str, WantedOften] = {}
     faults = []
     for number, each in enumerate(table.follow):
-        where = f"sky.follow[{number}]"
+        where = counted("sky.follow", number)
         try:
             wanted = sky.find(each.name)
             name = "" if isinstance(wanted, Aim) else wanted.target().name
@@ -100,6 +103,14 @@ def wanted_often(
         else:
             found[name] = WantedOften(wanted, priority(each.name, each.priority), each.min_culmination_deg)
     return tuple(found.values()), faults
+
+
+def why_no_plan(table: SkyTable, sky: KnownSky) -> str:
+    """Why there is no plan of many passes; empty: there is one, or may be one when new files of elements are read."""
+    found, faults = wanted_often(table, sky)
+    if found or (faults and sky.has_news()):
+        return ""
+    return f"there is no plan: {faults[0]}" if faults else NO_PLAN
 
 
 def wanted_names(table: SkyTable, sky: KnownSky, priority: Callable[[str, float], float] = _as_written) -> list[str]:

@@ -12,6 +12,13 @@ from dataclasses import dataclass
 NO_BREAK = "\u00a0"
 """A space in a text at which no line ends."""
 
+_ORDER = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+
+
+def counted(name: str, index: int) -> str:
+    """One of several tables `[[name]]`, as people count them. `index`: from 0."""
+    return f"the {_ORDER[index] if index < len(_ORDER) else f'{index + 1}th'} [[{name}]]"
+
 
 @dataclass(frozen=True, slots=True)
 class Mistake:

@@ -14,12 +14,11 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from rotator.config import mending, migrations
-from rotator.config.mistake import Mistake
+from rotator.config.mistake import Mistake, counted
 from rotator.config.model import Config
 from rotator.config.statements import Place, places
 from rotator.config.wording import explain, sorts, tables
 
-_ORDER = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 """What may be a key in the words of a mistake."""
 
@@ -66,7 +65,7 @@ def _counted(text: str, several: Collection[str]) -> str:
         name, number, key = found.groups()
         if name not in several:
             return found[0]
-        one = f"the {_ORDER[int(number)] if int(number) < len(_ORDER) else f'{int(number) + 1}th'} [[{name}]]"
+        one = counted(name, int(number))
         return one if not key else f"{one}: {key}" if found.start() == 0 else f"{key} of {one}"
 
     return re.sub(r"(?<![\w.\"])([a-z_.]+)\[(\d+)\](?:\.([a-z_][\w.\[\]]*\w\]?))?", words, text)

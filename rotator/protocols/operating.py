@@ -13,7 +13,7 @@ from hw.ports import Axis
 from rotator.config.station import NO_PLACE
 from rotator.control.rights import Deed, State, deed_of, hindrance, holds, mode_words
 from rotator.control.sky.timed_table import TimedTable
-from rotator.orders import Aim, Home, Jog, Mode, Order, RelaysChecked, Release, SetMode, Stop, Take
+from rotator.orders import Aim, GiveBack, Home, Jog, Mode, Order, RelaysChecked, Release, SetMode, Stop, Take
 from rotator.protocols.console import PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
 from rotator.protocols.session import Box, Tracking
 from rotator.sources import Source
@@ -66,8 +66,7 @@ class Operating:
             return "take the antenna first: then no program closes a relay meanwhile"
         if status.moving:
             return "the antenna moves: wait until it stands"
-        fault = status.faults[0] if status.faults else None
-        return f"first mend this, and let it go on: {fault}" if fault else ""
+        return _faulty(status)
 
     def _obey(self, order: Order) -> str:
         if isinstance(order, SetMode) and self._box.status().mode_switch:
@@ -90,7 +89,19 @@ class Operating:
                 return reason
             self._tracking.off()
             return ""
+        if words == "plan":
+            return self._leave_to_plan(self._tracking)
         return self._tracking_held() or self._tracking.track(words) or self._hold()
+
+    def _leave_to_plan(self, tracking: Tracking) -> str:
+        """The plan of many passes flies only while nobody holds the antenna: whoever asks for it gives it back."""
+        status = self._box.status()
+        holder = status.held_by if status.held_by != str(self._source) else ""
+        held = f"{holder} holds the antenna: the plan is not flown before it is given back" if holder else ""
+        if reason := self._tracking_held() or held or _faulty(status) or tracking.follow_plan():
+            return reason
+        self._box.order(GiveBack())
+        return ""
 
     def program(self, table: TimedTable) -> str:
         """Track a timed table. Returns why not; empty: it does."""
@@ -133,6 +144,11 @@ class Operating:
         held = holds(replace(status, latched="") if resumed else status, self._source)
         state = hindrance(held, deed)
         return held[state] if state else ""
+
+
+def _faulty(status: Status) -> str:
+    """What must be mended before; empty: nothing."""
+    return f"first mend this, and let it go on: {status.faults[0]}" if status.faults else ""
 
 
 def _beyond(order: Order, status: Status) -> str:

@@ -32,6 +32,9 @@ class Tracking(Protocol):
     def program(self, table: TimedTable) -> str:
         """Begin to track a timed table. Returns why not; empty: it does."""
 
+    def follow_plan(self) -> str:
+        """Leave the antenna to the plan of many passes. Returns why not; empty: it has it."""
+
     def off(self) -> None:
         """End it; the antenna stops."""
 

@@ -28,8 +28,6 @@ from rotator.tracking.system_clock import TOLD_S
 log = logging.getLogger(__name__)
 
 TRACK = Source(TRACKER)
-PLAN = "plan"
-"""The word for the plan of many passes, in place of a target."""
 TAKES_EFFECT_S = 2.0
 """Seconds from an order until the status must show it."""
 JUMPED_S = 0.25
@@ -41,6 +39,11 @@ CLOCK_UNSURE = (
     "nothing is tracked before this computer's clock is right: it has reached no time server yet. Where `date` shows "
     "the right time: rotator track --clock-is-right NAME, or step 8 of the page's Setup"
 )
+NO_PLAN = "there is no plan: the file has no [[sky.follow]]"
+
+
+def no_plan() -> str:
+    return NO_PLAN
 
 
 class Planner(Protocol):
@@ -101,16 +104,25 @@ NOTHING = Tracked("")
 
 
 class Tracker:
-    """`track`, `off` and `clock_is_right` may be called from any thread, `step` from one only.
+    """`track`, `follow_plan`, `off` and `clock_is_right` may be called from any thread, `step` from one only.
 
-    `clock_trusted`: whether the computer's clock counts as right without a person's word.
+    `clock_trusted`: whether the computer's clock counts as right without a person's word. `why_no_plan`: why there is
+    no plan of many passes; empty: there is one.
     """
 
-    def __init__(self, finder: Finder, planner: Planner, box: Box, clock_trusted: Callable[[], bool]) -> None:
+    def __init__(
+        self,
+        finder: Finder,
+        planner: Planner,
+        box: Box,
+        clock_trusted: Callable[[], bool],
+        why_no_plan: Callable[[], str] = no_plan,
+    ) -> None:
         self._finder = finder
         self._planner = planner
         self._box = box
         self._clock_trusted = clock_trusted
+        self._why_no_plan = why_no_plan
         self.clock_told = False
         """A person has said that the clock is right."""
         self._lock = threading.Lock()
@@ -132,7 +144,9 @@ class Tracker:
         self._ended = ""
         """Why the latest tracking ended by itself."""
         self._follows = True
-        """Whether the plan of many passes may be flown: `off` forbids it, `plan` allows it again."""
+        """Whether the plan of many passes may be flown: `off` forbids it, `follow_plan` allows it again."""
+        self._of_plan = False
+        """Whether the latest motion that the tracker ordered is of that plan."""
 
     @property
     def following(self) -> bool:
@@ -177,10 +191,7 @@ class Tracker:
             return f"ended: {self._ended}" if self._ended else "off"
 
     def track(self, words: str) -> str:
-        """Begin to track. Returns why not; empty: it tracks. `plan`: the targets that the configuration follows."""
-        if words == PLAN:
-            self._begin(NOTHING, follows=True)
-            return ""
+        """Begin to track. Returns why not; empty: it tracks."""
         try:
             wanted = self._finder.find(words)
         except Unknown as fault:
@@ -209,6 +220,23 @@ class Tracker:
         self._begin(Tracked(table.name, Program(table, self._box.status().at_s)), follows=self._follows)
         return ""
 
+    def follow_plan(self) -> str:
+        """Leave the antenna to the plan of many passes. Returns why not; empty: it has it.
+
+        A flight of the plan goes on. What else the tracker moves stops.
+        """
+        if reason := self._why_no_plan():
+            return reason
+        if not self.clock_trusted():
+            return CLOCK_UNSURE
+        mover = self._box.status().controlled_by
+        with self._lock:
+            self._request(NOTHING, mover, follows=True)
+            # With the lock: a flight of the plan that is ordered from now on comes after this stop.
+            if not self._of_plan:
+                self._stop()
+        return ""
+
     def off(self) -> None:
         """End the tracking. The antenna stops if the tracker moves it."""
         self._begin(NOTHING, follows=False)
@@ -219,7 +247,7 @@ class Tracker:
         with self._lock:
             if not self._follows or self._tracked.words:
                 return False
-            self._order(flight)
+            self._order(flight, of_plan=True)
             return True
 
     def fail(self, reason: str) -> None:
@@ -242,18 +270,22 @@ class Tracker:
     def _begin(self, tracked: Tracked, *, follows: bool, looks_again: bool = False) -> None:
         mover = self._box.status().controlled_by
         with self._lock:
-            if not tracked.words:
-                self._before = NOTHING
-            elif self._tracked.flown is not None:
-                self._before = self._tracked
-            self._tracked, self._ended, self._refused, self._follows = tracked, "", "", follows
-            self._held_by, self._mover = "", mover
-            self._looks_again = looks_again
-            self._asked += 1
+            self._request(tracked, mover, follows=follows, looks_again=looks_again)
 
-    def _order(self, order: Order) -> None:
+    def _request(self, tracked: Tracked, mover: str, *, follows: bool, looks_again: bool = False) -> None:
+        """The caller holds the lock."""
+        if not tracked.words:
+            self._before = NOTHING
+        elif self._tracked.flown is not None:
+            self._before = self._tracked
+        self._tracked, self._ended, self._refused, self._follows = tracked, "", "", follows
+        self._held_by, self._mover = "", mover
+        self._looks_again = looks_again
+        self._asked += 1
+
+    def _order(self, order: Order, *, of_plan: bool = False) -> None:
         """The caller holds the lock, so no request can come between its last check and this order."""
-        self._ordered_s = self._box.status().at_s
+        self._ordered_s, self._of_plan = self._box.status().at_s, of_plan
         self._box.order(order)
 
     def _stop(self) -> None:

@@ -194,9 +194,9 @@ def test_who_follows_nothing_is_told_how(tmp_path: Path) -> None:
 def test_a_followed_name_that_is_not_known_is_named_and_the_others_are_planned(tmp_path: Path) -> None:
     isx = '[[sky.follow]]\nname = "isx"\n[[sky.follow]]\nname = "25544"\n[[sky.follow]]\nname = "180 45"\n'
     result = told(tmp_path, "plan", "--from", EVENING, "--json", more=FOLLOW + isx)
-    assert 'sky.follow[2]: "isx" is not among the 3 satellites known; perhaps ISS?' in result.stderr
-    assert 'sky.follow[3]: "25544" is ISS, which is followed already' in result.stderr
-    assert 'sky.follow[4]: "180 45" is a fixed direction: it has no passes' in result.stderr
+    assert 'the third [[sky.follow]]: "isx" is not among the 3 satellites known; perhaps ISS?' in result.stderr
+    assert 'the fourth [[sky.follow]]: "25544" is ISS, which is followed already' in result.stderr
+    assert 'the fifth [[sky.follow]]: "180 45" is a fixed direction: it has no passes' in result.stderr
     assert {each["name"] for each in json.loads(result.stdout)} == {"ISS", "SO-50"}
 
 

@@ -30,6 +30,10 @@ class Sky:
         self.heard.append(f"{table.name}: {table.rows} by lines {table.lines}")
         return ""
 
+    def follow_plan(self) -> str:
+        self.heard.append("plan")
+        return ""
+
     def off(self) -> None:
         self.heard.append("off")
 

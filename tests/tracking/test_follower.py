@@ -6,8 +6,14 @@ import logging
 
 import pytest
 
-from rotator.orders import Aim, GiveBack, Release, Stop, Take
+from rotator.assembly.settings import build_mount
+from rotator.config.load import parse
+from rotator.orders import Aim, GiveBack, Order, Release, Stop, Take
+from rotator.protocols.console import Track
+from rotator.protocols.operating import Operating
+from rotator.runtime.client import Client
 from rotator.sources import Source
+from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.search import some
 from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
 
@@ -109,7 +115,7 @@ def test_off_ends_it_and_plan_begins_it_again(rise: Box) -> None:
     rise.tracker.off()
     rise.wait(30.0)
     assert rise.loop.status.flown is None
-    assert rise.tracker.track("plan") == ""
+    assert rise.tracker.follow_plan() == ""
     rise.wait(5.0)
     assert rise.loop.status.flown is not None
 
@@ -119,6 +125,76 @@ def test_a_target_that_a_person_names_comes_before_the_plan(rise: Box) -> None:
     rise.wait(175.0)
     assert rise.loop.status.flown is not None
     assert rise.loop.status.flown.name == "Moon"
+
+
+def asks(rise: Box, source: Source | None = None) -> str:
+    """A person asks for the plan, at the console or on the page. The answer: why not."""
+    client = Client(rise.loop, build_mount(parse("", "box")), source or PERSON, clock=rise.clock)
+    return Operating(client, rise.tracker, source).do(Track("plan"))
+
+
+@pytest.mark.parametrize("words", ["moon", "180 45"])
+def test_who_asks_for_the_plan_ends_what_else_the_box_tracks_and_the_next_pass_is_flown(rise: Box, words: str) -> None:
+    assert rise.tracker.track(words) == ""
+    rise.wait(5.0)
+    assert rise.loop.status.moving
+    assert asks(rise) == ""
+    rise.wait(8.0)
+    assert rise.loop.status.flown is None
+    assert not rise.loop.status.moving
+    rise.wait(160.0)
+    assert rise.loop.status.flown is not None
+    assert rise.loop.status.flown.name.startswith("ISS")
+
+
+def test_a_flight_that_no_plan_has_replaced_yet_ends_too(rise: Box) -> None:
+    rise.tracker.track("moon")
+    rise.wait(5.0)
+    rise.tracker.track("so-50")
+    assert asks(rise) == ""
+    rise.wait(8.0)
+    assert rise.loop.status.flown is None
+    assert not rise.loop.status.moving
+
+
+def test_who_asks_for_the_plan_again_leaves_its_flight_alone(rise: Box) -> None:
+    rise.wait(170.0)
+    heard: list[Order] = []
+    rise.after_heard = heard.append
+    assert asks(rise) == ""
+    rise.wait(5.0)
+    assert heard == [GiveBack()]
+    assert rise.loop.status.flown is not None
+
+
+@pytest.mark.parametrize("source", [None, PAGE])
+def test_who_asks_for_the_plan_ends_its_rest(rise: Box, source: Source | None) -> None:
+    rise.loop.post(source or PC, Aim(100.0, 10.0))
+    rise.wait(5.0)
+    assert asks(rise, source) == ""
+    rise.wait(165.0)
+    assert rise.loop.status.controlled_by == "track"
+    assert rise.loop.status.held_by == ""
+
+
+def test_why_the_plan_is_not_flown_is_told() -> None:
+    def told(follow: str) -> str:
+        return asks(Box(FEBRUARY_S, follow=follow))
+
+    assert told("") == "there is no plan: the file has no [[sky.follow]]"
+    assert told('[[sky.follow]]\nname = "isx"').startswith('there is no plan: the first [[sky.follow]]: "isx" is not')
+    held, unsure, faulty = (Box(FEBRUARY_S, follow=FOLLOWS_ISS) for _ in range(3))
+    held.loop.post(PAGE, Take())
+    held.wait(1.0)
+    assert asks(held) == "page#1 holds the antenna: the plan is not flown before it is given back"
+    assert asks(held, PAGE) == ""
+    held.wait(1.0)
+    assert asks(held) == ""
+    unsure.clock_trusted = False
+    assert asks(unsure) == CLOCK_UNSURE
+    faulty.world.inject("azimuth-pot-open")
+    faulty.wait(5.0)
+    assert asks(faulty).startswith("first mend this, and let it go on: ")
 
 
 def test_while_the_clock_may_be_wrong_nothing_moves(rise: Box) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from firmware_sim.clock import SimClock
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
-from rotator.assembly.tracking import TrackedBox, wanted_often
+from rotator.assembly.tracking import TrackedBox, wanted_often, why_no_plan
 from rotator.config.load import parse
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna
@@ -102,7 +102,9 @@ class Box:
         self.known = sky = KnownSky(site, Catalogue((str(elements),)))
         self.tracked = tracked = SlowSensors(config, self.loop, mount)
         tracked.read_s = self.clock() + read_after_s
-        self.tracker = Tracker(sky, self.planner, tracked, lambda: self.clock_trusted)
+        self.tracker = Tracker(
+            sky, self.planner, tracked, lambda: self.clock_trusted, lambda: why_no_plan(config.sky, sky)
+        )
         self._listener = StreamListener(sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted)
         begun_s = self.clock() if restarted else None
         self.follower = Follower(self.tracker, self.planner, tracked, lambda: wanted_often(config.sky, sky)[0], begun_s)
