@@ -19,7 +19,7 @@ STOP, QUIT = " ", "q"
 STAYS = "a fault stays until repaired"
 AGAIN = "The antenna is on its way. q again to quit"
 NEXT = "Enter does it"
-"""What is said of a word that is being typed."""
+"""What is said of a word that is whole, and of a beginning of `stop`."""
 CHOICE = f"Type {', '.join((STOP_WORD, *WORDS[:-1]))} or {WORDS[-1]}"
 NO_WORD = "no such word: Enter clears it"
 ENTER, BACK, ESCAPE = "\r\n", "\x7f\b", "\x1b"
@@ -92,7 +92,7 @@ class RunKeys:
         self._typed = typed
         if typed:
             # A line that is spoilt looks the same whatever follows, so that it is told once.
-            self.line = f"> {_to_first_slip(typed)}_  {NEXT if _begins_a_word(typed) else NO_WORD}"
+            self.line = f"> {_to_first_slip(typed)}_  {_next(typed)}"
         else:
             self.line = remark
 
@@ -113,6 +113,14 @@ class RunKeys:
 
 def _begins_a_word(typed: str) -> bool:
     return any(word.startswith(typed) for word in (*WORDS, STOP_WORD))
+
+
+def _next(typed: str) -> str:
+    """What the person may do next."""
+    if typed in WORDS or STOP_WORD.startswith(typed):
+        return NEXT
+    word = next((word for word in WORDS if word.startswith(typed)), None)
+    return NO_WORD if word is None else f"{word}, then Enter"
 
 
 def _to_first_slip(typed: str) -> str:

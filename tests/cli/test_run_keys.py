@@ -99,12 +99,23 @@ def test_the_word_releases(bench: BenchBox) -> None:
 
 
 def test_what_is_typed_shows(bench: BenchBox) -> None:
-    assert typed(bench, "pa").line == "> pa_  Enter does it"
+    assert typed(bench, "pa").line == "> pa_  park, then Enter"
+    assert typed(bench, "res").line == "> res_  resume, then Enter"
     assert typed(bench, "sto").line == "> sto_  Enter does it"
     assert typed(bench, "pa5").line == "> pa5_  no such word: Enter clears it"
     assert typed(bench, "pa\r").line == "pa: no such word. Type stop, park or resume"
     assert typed(bench, "pa\x1b").line == ""
     assert typed(bench, "p\x7f").line == ""
+
+
+@pytest.mark.parametrize("word", ["stop", "park", "resume"])
+def test_enter_does_what_the_line_says_that_it_does(word: str) -> None:
+    for end in range(1, len(word) + (word != "stop")):
+        bench = BenchBox()
+        keys = typed(bench, word[:end])
+        promised = keys.line.endswith("Enter does it")
+        keys.key("\r")
+        assert promised == bool(bench.orders), word[:end]
 
 
 def test_a_word_without_effect_says_why(bench: BenchBox) -> None:
