@@ -135,8 +135,8 @@ class Tracker:
         """The number of requests. A plan for an earlier request is not flown."""
         self._looks_again = False
         """Whether the name is not known and files are new: then it is searched again after they are read."""
-        self._held_by = ""
-        """The source of a stop or of a release since the request. Tracking ends then."""
+        self._held = ""
+        """Who stopped or released the antenna since the request, and how. Tracking ends then."""
         self._mover = ""
         """The source that moved the antenna at the time of the request."""
         self._ordered_s = -math.inf
@@ -171,7 +171,7 @@ class Tracker:
                 pass  # it released nothing
             case Stop() | SetMode() | LetGo() | Release() | Take(stops=True) | Park(storm=True) if source != TRACK:
                 with self._lock:
-                    self._held_by = str(source)
+                    self._held = self._held or f"{source} {_did(order)}"
 
     # --- from a console
 
@@ -279,7 +279,7 @@ class Tracker:
         elif self._tracked.flown is not None:
             self._before = self._tracked
         self._tracked, self._ended, self._refused, self._follows = tracked, "", "", follows
-        self._held_by, self._mover = "", mover
+        self._held, self._mover = "", mover
         self._looks_again = looks_again
         self._asked += 1
 
@@ -299,12 +299,12 @@ class Tracker:
     def step(self, now: Now) -> None:
         """Do what is due now. May compute for seconds."""
         with self._lock:
-            tracked, asked, held_by = self._tracked, self._asked, self._held_by
+            tracked, asked, held = self._tracked, self._asked, self._held
             words, flown = tracked.words, tracked.flown
         if not words:
             return
-        if held_by:
-            self._end(asked, words, f"{held_by} stopped it, or let it go on")
+        if held:
+            self._end(asked, words, held)
         elif flown is not None and (reason := lost(flown, self._box.status(), now)):
             self._end(asked, words, reason)
         elif not self._looks_again and (flown is None or _is_over(flown, now)):
@@ -324,7 +324,7 @@ class Tracker:
         status = self._box.status()
         with self._lock:
             # The plan took seconds: another request, a stop or another sender may have come meanwhile.
-            if asked != self._asked or self._held_by or status.latched:
+            if asked != self._asked or self._held or status.latched:
                 return
             taken = status.controlled_by not in ("", str(TRACK), self._mover)
             if not taken:
@@ -361,6 +361,23 @@ class Tracker:
                 return
             self._tracked, self._before, self._ended = NOTHING, NOTHING, reason
         log.warning("tracking of %s has ended: %s", words, reason)
+
+
+def _did(order: Order) -> str:
+    """What an order that ends tracking did, as words behind its sender."""
+    match order:
+        case SetMode(mode):
+            return f"has set the mode {mode.name}"
+        case LetGo():
+            return "took the torque from the motors"
+        case Release():
+            return "let it go on after a stop or a fault"
+        case Take():
+            return "took the antenna"
+        case Park():
+            return "parked it"
+        case _:
+            return "stopped it"
 
 
 def _is_shown(flown: Flown, status: Status) -> bool:

@@ -13,7 +13,7 @@ from hw.ports import Axis, Direction
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, GiveBack, Jog, Mode, Order, Release, SetMode, Stop
+from rotator.orders import BOTH, Aim, GiveBack, Jog, LetGo, Mode, Order, Park, Release, SetMode, Stop, Take
 from rotator.sources import Source
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
@@ -139,7 +139,27 @@ def test_a_stop_at_the_very_end_of_a_pass_is_no_end_of_a_pass(rise: Box) -> None
     late.loop.post(PC, Stop(BOTH))
     late.wait(30.0)
     assert late.loop.status.flown is None
-    assert late.tracker.state == "ended: gs232b#1 stopped it, or let it go on"
+    assert late.tracker.state == "ended: gs232b#1 stopped it"
+
+
+@pytest.mark.parametrize(
+    ("source", "orders", "said"),
+    [
+        (PERSON, [Stop(latch=True)], "stopped it"),
+        (PERSON, [Stop(latch=True), Release()], "stopped it"),
+        (Source("panel"), [SetMode(Mode.JOG)], "has set the mode JOG"),
+        (Source("page", 1), [Take()], "took the antenna"),
+        (PERSON, [Park(storm=True)], "parked it"),
+        (PERSON, [LetGo()], "took the torque from the motors"),
+    ],
+)
+def test_the_end_names_who_did_what(rise: Box, source: Source, orders: list[Order], said: str) -> None:
+    assert rise.tracker.track("iss") == ""
+    rise.wait(5.0)
+    for order in orders:
+        rise.loop.post(source, order)
+    rise.wait(1.0)
+    assert rise.tracker.state == f"ended: {source} {said}"
 
 
 def test_after_a_fault_that_a_person_has_acknowledged_nothing_goes_on(rise: Box) -> None:
@@ -151,7 +171,7 @@ def test_after_a_fault_that_a_person_has_acknowledged_nothing_goes_on(rise: Box)
     rise.world.clear("azimuth-pot-open")
     rise.loop.post(PERSON, Release())
     rise.wait(5.0)
-    assert rise.tracker.state.startswith("ended: ")
+    assert rise.tracker.state == "ended: console#1 let it go on after a stop or a fault"
     assert not rise.loop.status.moving
 
 
