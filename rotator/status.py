@@ -191,6 +191,12 @@ class Flown:
         return f", error up to {self.expected_error_deg:.1f}°"
 
 
+def time_left(seconds: float) -> str:
+    """`1:05 min`, or `2 h 07 min`: the time until a target rises or sets, for a person."""
+    minutes, seconds_left = divmod(round(seconds), 60)
+    return f"{minutes // 60} h {minutes % 60:02d} min" if minutes >= 60 else f"{minutes}:{seconds_left:02d} min"
+
+
 @dataclass(frozen=True, slots=True)
 class Latch:
     """A stop that only a person releases."""

@@ -14,7 +14,7 @@ import click
 
 from rotator.cli.box import RunningBox
 from rotator.cli.failed import CommandFailed
-from rotator.status import SHOWN_ERROR_DEG
+from rotator.status import SHOWN_ERROR_DEG, time_left
 
 LOOK_S = 0.2
 MOST_BYTES = 1_000_000
@@ -57,8 +57,10 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
 def _table(words: str) -> list[str] | None:
     """The lines of the file that the words name; None: they name no file. Raises CommandFailed."""
     path = Path(words)
-    # A name that is too long for a file is none: Path.is_file() would raise.
-    if path.suffix.lower() != ".csv" and not os.path.isfile(path):
+    # A satellite may be called like a file of this folder. A name that is too long for a file is none: Path.is_file()
+    # would raise.
+    like_a_file = "." in words or "/" in words
+    if not like_a_file or (path.suffix.lower() != ".csv" and not os.path.isfile(path)):
         return None
     from rotator.protocols.table_text import FORM, TableError, read_table  # noqa: PLC0415 - no other target needs it
     from rotator.store.plain import read_plain  # noqa: PLC0415
@@ -115,13 +117,13 @@ def _sentence(tracks: dict[str, Any]) -> str:
     wait_s, table = tracks["begins_in_s"], tracks["table"]
     name = f"The table {tracks['name']}" if table else tracks["name"]
     if wait_s > 0:
-        text = f"{name} {'begins' if table else 'rises'} in {_time(wait_s)}. The antenna waits for it there."
+        text = f"{name} {'begins' if table else 'rises'} in {time_left(wait_s)}. The antenna waits for it there."
     elif table:
-        text = f"{name} lasts {_time(tracks['ends_in_s'])} more. The antenna follows it."
+        text = f"{name} goes on for {time_left(tracks['ends_in_s'])} more. The antenna follows it."
     elif tracks["ends_in_s"] is None:
         text = f"{name} is always up. The antenna follows it."
     else:
-        text = f"{name} is up for {_time(tracks['ends_in_s'])} more. The antenna follows it."
+        text = f"{name} is up for {time_left(tracks['ends_in_s'])} more. The antenna follows it."
     if tracks["expected_error_deg"] >= SHOWN_ERROR_DEG:
         text += (
             f" Expect an error of up to {tracks['expected_error_deg']:.1f}°, from the age of its elements and the clock"
@@ -135,10 +137,3 @@ def _beyond(tracks: dict[str, Any]) -> str:
     if not tracks["beyond_beam"]:
         return "."
     return ": MORE THAN HALF OF THE BEAM. It needs newer elements, or the right time."
-
-
-def _time(seconds: float) -> str:
-    minutes = round(seconds / 60)
-    if minutes >= 60:
-        return f"{minutes // 60} h {minutes % 60:02d} min"
-    return f"{minutes} min" if seconds >= 90 else f"{seconds:.0f} s"

@@ -225,7 +225,8 @@ def files(places: Sequence[str], to_come: Sequence[Path] = ()) -> tuple[list[Pat
             continue
         found |= dict.fromkeys(here)
         if not here:
-            missing.append(f"{place}: no file of elements in it" if is_folder else f"{place}: no such file")
+            # Whole: a name alone does not say in which folder it was looked for.
+            missing.append(f"{path.absolute()}: no {'file of elements in it' if is_folder else 'such file'}")
     for path in to_come:
         try:
             found |= dict.fromkeys(_inside(path) if path.is_dir() else [path] if path.exists() else [])

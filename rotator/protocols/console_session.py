@@ -20,7 +20,7 @@ from rotator.protocols.session import Box, Pairing, Tracking
 from rotator.protocols.status_object import as_object
 from rotator.protocols.table_text import TableError, read_table
 from rotator.spoken import held, sender, spoken
-from rotator.status import Flown, Status
+from rotator.status import Flown, Status, time_left
 
 MAX_LINE = 200
 MOST_TABLE_LINES = 20_000
@@ -162,15 +162,10 @@ def tracked(flown: Flown, now_s: float) -> str:
     begins, lasts = ("begins", "goes on") if flown.table else ("rises", "up")
     wait_s, left_s = flown.begin_s - now_s, max(0.0, flown.end_s - now_s)
     if wait_s > 0:
-        when = f"{begins} in {_minutes(wait_s)}"
+        when = f"{begins} in {time_left(wait_s)}"
     else:
-        when = f"{lasts} for {_minutes(left_s)} more" if math.isfinite(left_s) else "always up"
+        when = f"{lasts} for {time_left(left_s)} more" if math.isfinite(left_s) else "always up"
     return f"{flown.name}, {when}{flown.error_text}"
-
-
-def _minutes(seconds: float) -> str:
-    minutes, seconds_left = divmod(round(seconds), 60)
-    return f"{minutes // 60} h {minutes % 60} min" if minutes >= 60 else f"{minutes}:{seconds_left:02d} min"
 
 
 def _stands(status: Status, axis: Axis) -> str:

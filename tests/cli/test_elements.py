@@ -57,9 +57,14 @@ def test_a_table_is_flown_and_its_mistakes_are_told_with_their_lines(
     mistaken = rotator_here("track", "back.csv", "--config", config)
     assert mistaken.returncode == 1
     assert "back.csv:4: t must rise from row to row: 40 comes after 100" in mistaken.stderr
-    assert rotator_here("track", "pass.csv", "--config", config).stdout == (
-        "The table pass.csv begins in 2 min. The antenna waits for it there.\n"
-    )
+    without = rotator_here("track", "polaris", "--config", config)
+    (tmp_path / "polaris").write_text("no table\n", encoding="utf-8")
+    named = rotator_here("track", "polaris", "--config", config)
+    assert (named.stdout, named.stderr) == (without.stdout, without.stderr), "a name without a dot is a target's"
+    told = rotator_here("track", "pass.csv", "--config", config).stdout
+    assert re.fullmatch(r"The table pass begins in 1:[0-5]\d min\. The antenna waits for it there\.\n", told)
+    where = rotator_here("where", "--config", config).stdout
+    assert re.search(r"^tracks: pass, begins in 1:[0-5]\d min$", where, re.MULTILINE)
     tracks = json.loads(rotator_here("where", "--json", "--config", config).stdout)["tracks"]
     assert tracks["name"] == "pass"
     assert tracks["ends_in_s"] > tracks["begins_in_s"] + 39

@@ -191,6 +191,15 @@ def test_what_is_missing_or_no_text_is_named(tmp_path: Path) -> None:
     )
 
 
+def test_what_is_missing_is_named_with_its_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
+    assert Catalogue(["gone.tle", "empty"]).faults == (
+        f"{tmp_path}/gone.tle: no such file",
+        f"{tmp_path}/empty: no file of elements in it",
+    )
+
+
 def test_a_pipe_keeps_no_reader_waiting(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe.tle")
     assert Catalogue([str(tmp_path / "pipe.tle")]).faults == (f"{tmp_path}/pipe.tle: it is no file",)
