@@ -19,14 +19,16 @@ NOT_OURS = "could not bind"
 """The begin of asyncio's text in Python 3.13, without an error number, if no address belongs to this machine."""
 
 
-def cannot_listen(fault: OSError | UnicodeError, host: str, port: int) -> str:
-    """The whole sentence, in one line."""
+def cannot_listen(fault: OSError | UnicodeError, host: str, port: int, rival: str = "") -> str:
+    """The whole sentence, in one line. `rival`: what else of the same file listens at this port; empty: nothing."""
     shown = f"[{host}]" if ":" in host else host
-    return f"{shown}:{port}: cannot listen there: {_why(fault, host, port)}"
+    return f"{shown}:{port}: cannot listen there: {_why(fault, host, port, rival)}"
 
 
-def _why(fault: OSError | UnicodeError, host: str, port: int) -> str:
+def _why(fault: OSError | UnicodeError, host: str, port: int, rival: str) -> str:
     number = fault.errno if isinstance(fault, OSError) and not isinstance(fault, socket.gaierror) else None
+    if number == errno.EADDRINUSE and rival:
+        return f"{os.strerror(number)}: {rival} of the same file has this port: write another for one of the two"
     if number == errno.EADDRNOTAVAIL or (number is None and NOT_OURS in str(fault)):
         allow = f', and allow = ["{host}"] lets that one in' if _is_lan(host) else ", and in allow who may"
         return f"{os.strerror(errno.EADDRNOTAVAIL)}: {_ours()}; for the network write 0.0.0.0:{port}{allow}"

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from rotator.assembly.fetching import fetches_file
 from rotator.assembly.sky import build_site, uploaded_folder
 from rotator.config.links import address
+from rotator.config.mistake import counted
 from rotator.config.model import Config
 from rotator.control.sky.mount import Mount
 from rotator.links.wire import Wire
@@ -153,4 +154,6 @@ def build_page(
             closes=(passes.close, elements.close),
         )
 
-    return PageThread(host, port, behind, (lines, wire_log), clock, events=events or EventWatch(clock))
+    rivals = (counted("link", at) for at, each in enumerate(config.link) if each.tcp and address(each.tcp)[1] == port)
+    events = events or EventWatch(clock)
+    return PageThread(host, port, behind, (lines, wire_log), clock, events=events, rival=next(rivals, ""))

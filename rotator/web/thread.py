@@ -56,9 +56,13 @@ class PageThread:
         clock: Callable[[], float],
         *,
         events: EventWatch,
+        rival: str = "",
     ) -> None:
-        """`events` shows the control thread whether this thread's event loop runs."""
-        self._host, self._port = host, port
+        """`events` shows the control thread whether this thread's event loop runs.
+
+        `rival`: what else of the configuration listens at this port; empty: nothing.
+        """
+        self._host, self._port, self._rival = host, port, rival
         self._behind = behind
         self._clock = clock
         self._kept = kept
@@ -85,7 +89,7 @@ class PageThread:
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, UNSENT_BYTES)
         except (OSError, UnicodeError) as fault:
             self.wire.state = "closed"
-            log.warning("there is no page: %s", cannot_listen(fault, self._host, self._port))
+            log.warning("there is no page: %s", cannot_listen(fault, self._host, self._port, self._rival))
             return
         self.wire.state = "listening"
         for each in self._kept:

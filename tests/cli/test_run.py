@@ -139,6 +139,17 @@ def test_a_port_in_use(rotator: Rotator, config: Path) -> None:
     )
 
 
+def test_a_link_on_the_page_s_port(start: Start, config: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        place = f"127.0.0.1:{free.getsockname()[1]}"
+    config.write_text(f'[page]\nlisten = "{place}"\n[[link]]\nprotocol = "rotctld"\ntcp = "{place}"\n')
+    box = start("run", "--config", config)
+    box.until("elevation 0°\n")
+    assert box.stop() == 0
+    assert f"there is no page: {place}: cannot listen there: " in box.errors
+    assert "the first [[link]] of the same file has this port: write another for one of the two\n" in box.errors
+
+
 def test_a_second_box_on_the_same_terminal(start: Start, rotator: Rotator, config: Path) -> None:
     first = start("run", "--config", config)
     first.until("elevation 0°\n")

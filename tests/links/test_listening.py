@@ -42,6 +42,13 @@ def test_what_to_write(fault: OSError, ends: str) -> None:
     assert said.endswith(ends)
 
 
+def test_a_port_that_another_part_of_the_same_file_has() -> None:
+    said = cannot_listen(OSError(errno.EADDRINUSE, "x"), "127.0.0.1", 8232, "the first [[link]]")
+    assert said.endswith(": the first [[link]] of the same file has this port: write another for one of the two")
+    other = cannot_listen(OSError(errno.EACCES, "x"), "127.0.0.1", 80, "the first [[link]]")
+    assert "[[link]]" not in other
+
+
 def test_an_ipv6_address_stands_in_brackets() -> None:
     said = cannot_listen(OSError(errno.EADDRNOTAVAIL, "x"), "2001:db8::1", 4533)
     assert said.startswith(f"[2001:db8::1]:4533: cannot listen there: {os.strerror(errno.EADDRNOTAVAIL)}")
