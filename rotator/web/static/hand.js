@@ -92,19 +92,26 @@ export function ThereFromSky({ draft, say }) {
   return there && html`<p><button type="button" class="go" onClick=${() => pointAt(there, say)}>Turn to ${there[0]}°, ${there[1]}°</button></p>`;
 }
 
+/** What became of the latest request, where the status does not show it; empty: nothing to say. */
+function trackingSaid(tracking) {
+  if (tracking === "planning") return "The next pass is planned …";
+  if (tracking.startsWith("refused: ")) return `Not tracked: ${tracking.slice(9)}`;
+  return tracking.startsWith("ended") ? `Tracking has ${tracking}` : "";
+}
+
 export function Track({ now, known, say }) {
   const [name, setName] = useState("");
   const track = (event) => {
     event.preventDefault();
     act(post("track", { target: name }), say);
   };
-  const tracks = now.status.tracks, ended = now.tracking.startsWith("ended") || now.tracking === "planning";
+  const tracks = now.status.tracks, said = trackingSaid(now.tracking);
   return html`<form class="track" onSubmit=${track}>
     <label>Track<input required maxlength="100" placeholder=${known ? "ISS, Moon, Sun, JN58td" : "the box does not know its place"} value=${name}
       onInput=${(event) => setName(event.target.value)} /></label>
     <button type="submit">Track</button>
     ${tracks && html`<button type="button" onClick=${() => act(post("track", { target: "off" }), say)}>End ${tracks.name}</button>`}
-    ${ended && html`<p class="hint-line" role="status">${now.tracking === "planning" ? "The next pass is planned …" : `Tracking has ${now.tracking}`}</p>`}
+    ${said && html`<p class="hint-line" role="status">${said}</p>`}
   </form>`;
 }
 

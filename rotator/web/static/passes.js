@@ -10,7 +10,7 @@ import { act, html, useEffect, useRef, useState } from "/ui.js";
 
 const EVERY_MS = 600_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, ROWS = 12, MOST_ROWS = 100;
 const BODIES = ["Sun", "Moon", "Mercury", "Venus", "Mars", "Jupiter", "Saturn"];
-const STATES = { off: "The box tracks nothing.", planning: "The box plans the next pass …", tracking: "The box tracks." };
+const STATES = { off: "The box tracks nothing.", planning: "The box plans the next pass …", tracking: "The box tracks.", refused: "The box goes on with what it tracked." };
 
 function until(ms) {
   const minutes = Math.max(0, Math.round(ms / 60_000));
@@ -69,7 +69,7 @@ export function Passes({ now: box, station, hello, say }) {
   const track = (target) => act(post("track", { target }), say), tracks = box.status.tracks;
   const shown = (passes ?? []).filter((pass) => pass.max_el_deg >= (number(leastDeg) ?? 0) && !(pass.los && new Date(pass.los) < now));
   return html`<div class="views"><section class="log"><h2>Track</h2>
-    <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}${tracks && box.tracking.startsWith("refused: ") && html`. Not tracked: ${box.tracking.slice(9)}`}</p>
+    <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking.split(":")[0]] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}</p>
     ${paired && html`<div class="chips" role="group" aria-label="Track">
       ${BODIES.map((name) => html`<button type="button" aria-pressed=${tracks?.name === name} onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
       <button type="button" onClick=${() => track("plan")}>Follow the plan</button>
