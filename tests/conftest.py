@@ -44,11 +44,14 @@ def pytest_configure(config: pytest.Config) -> None:
 
     A search that names no number of its own tries a hundred in `make test-search`.
 
-    A shell starts what runs in its background deaf to Ctrl-C, and the programs under test would inherit that.
+    A shell starts what runs in its background deaf to Ctrl-C, `nohup` deaf to a closed terminal, and the programs under
+    test would inherit that. A signal that is handled here is not: they begin with its default.
     """
     for key in (signal.SIGINT, signal.SIGQUIT):
         if signal.getsignal(key) is signal.SIG_IGN:
             signal.signal(key, signal.default_int_handler)
+    if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda _number, _frame: None)
     if config.pluginmanager.hasplugin("hypothesispytest"):
         from hypothesis import settings
 

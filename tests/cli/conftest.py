@@ -107,7 +107,9 @@ class InTerminal(Running):
 
     def ends(self) -> int:
         # Read along, lest it wait for the terminal to take its last picture.
+        give_up_s = time.monotonic() + PATIENCE_S
         while self.process.poll() is None:
+            assert time.monotonic() < give_up_s, f"it does not end: {self.rest[-500:]}"
             ready, _, _ = select.select([self._master], [], [], 0.1)
             if ready:
                 self._read()

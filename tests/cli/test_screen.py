@@ -12,6 +12,8 @@ import pytest
 Start = Callable[..., Any]
 Send = Callable[[bytes], None]
 HELD = "resume + Enter: it may move again"
+QUIT = "qq"
+"""While the antenna is on its way the box asks once."""
 FRAMES = 100
 """How many pictures to look at: five come every second."""
 
@@ -35,7 +37,7 @@ def test_the_picture_shows_the_display_the_axes_and_the_links(box: Any, send: Se
     send(b"W235 025\r")
     picture_with(box, "SAT A:235 E:025", r"W235 025\r", "orders from gs232b (", "●")
     picture_with(box, "SIM A:23", without=("●",))
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
 
 
@@ -54,7 +56,7 @@ def test_space_stops_and_latches_and_resume_releases(box: Any, send: Send) -> No
     picture_with(box, "resume: done", without=("STOPPED by",))
     send(b"L\r")
     picture_with(box, "● CCW")
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
 
 
@@ -68,14 +70,14 @@ def test_park_and_enter_parks_and_latches(box: Any, send: Send) -> None:
     picture_with(box, "SIM A:00", "STORM PARK", HELD, without=("●",))
     send(b"W120 030\r")
     picture_with(box, "W120 030", "SIM A:00", "STORM PARK", HELD, without=("●",))
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
 
 
 def test_q_gives_the_terminal_back_as_it_was(box: Any, tmp_path: Path) -> None:
     box.frame()
     assert box.modes() != box.modes_before, "keys act without Enter"
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
     assert box.modes() == box.modes_before
     assert not (tmp_path / "gs232").is_symlink()
@@ -96,7 +98,7 @@ def test_any_other_key_does_nothing(box: Any, send: Send) -> None:
     for key in ("x", "\r", "\x1b[A", "ä", "r", "\r", "\x1b", "p", "\x7f", "\r"):
         box.press(key)
     picture_with(box, "● CW", without=("STOPPED by",))
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
 
 
@@ -115,7 +117,7 @@ def test_keys_act_where_nothing_can_be_drawn(start_in_terminal: Start, config: P
     box.until("STOPPED by the keyboard")
     box.press("resume\r")
     box.until("resume: done")
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
     assert box.modes() == box.modes_before
 
@@ -131,7 +133,7 @@ def test_the_picture_follows_the_terminal_s_size(box: Any) -> None:
         assert {len(line) for line in lines[1:-1]} == {columns}
         assert len(lines) <= rows
         assert "space STOP   q quit" in "\n".join(lines)
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
 
 
@@ -139,13 +141,13 @@ def test_a_simple_terminal_gets_simple_characters(start_in_terminal: Start, conf
     box = start_in_terminal("run", "--config", config, term="linux")
     box.until(r"\+- rotator \S+  SIMULATED -+\+")
     assert "target        --- | " in box.until(r"space STOP")
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
 
 
 def test_the_arduino_s_picture(start_in_terminal: Start, config: Path) -> None:
     box = start_in_terminal("arduino", "--config", config, "--pty", "uno")
     picture_with(box, "F1EFW sketch", "SIMULATED", "SAT A:000 E:000", "ANT A:000 E:000", "q quit")
-    box.press("q")
+    box.press(QUIT)
     assert box.ends() == 0
     assert box.modes() == box.modes_before
