@@ -39,14 +39,29 @@ PrivateTmp=no
 ExecStart=
 ExecStart={bin}/rotator run --plain --config {site.config}
 ExecStopPost=
-ExecStopPost=-/bin/sh -c 'exec {bin}/python -I -S {safety}/off_at_once.py /run/rotator/relay-lines'
-ExecStopPost={bin}/rotator off --config {site.config}
+{stop_posts}
 WorkingDirectory=/
 ReadWritePaths={site.folder}
 StandardOutput=append:{site.log}
 StandardError=append:{site.log}
 """
+INSTALLED = "/opt/rotator/current"
 TARGET = "[Unit]\nDefaultDependencies=no\nRequires=rotator.service\n"
+
+
+def stop_posts(unit: str, config: Path) -> str:
+    """What the unit does after the program's end, with the paths of this project."""
+    lines = "\n".join(line for line in unit.splitlines() if line.startswith("ExecStopPost="))
+    here = {
+        f"{INSTALLED}/lib/python3*/site-packages/hw/safety": SAFETY,
+        f"{INSTALLED}/bin": BIN,
+        "/etc/rotator/rotator.toml": config,
+    }
+    for there, place in here.items():
+        assert there in lines
+        lines = lines.replace(there, str(place))
+    assert INSTALLED not in lines
+    return lines
 
 
 class Service:
@@ -55,8 +70,10 @@ class Service:
     def __init__(self, site: Site) -> None:
         self.site = site
         (UNITS / "rotator.service.d").mkdir(parents=True)
-        (UNITS / "rotator.service").write_text(UNIT.read_text())
-        (UNITS / "rotator.service.d/here.conf").write_text(DROP_IN.format(bin=BIN, safety=SAFETY, site=site))
+        unit = UNIT.read_text()
+        (UNITS / "rotator.service").write_text(unit)
+        drop_in = DROP_IN.format(bin=BIN, site=site, stop_posts=stop_posts(unit, site.config))
+        (UNITS / "rotator.service.d/here.conf").write_text(drop_in)
         (UNITS / "here.target").write_text(TARGET)
         container = ["unshare", "--fork", "--pid", "--mount", "--mount-proc", "--cgroup", "--kill-child"]
         systemd = [SYSTEMD, "--system", "--unit=here.target", "--log-target=null", "--show-status=no"]
