@@ -33,6 +33,7 @@ COMMAND=/usr/local/bin/rotator
 CONFIG_AT=/etc/rotator
 CONFIG=$CONFIG_AT/rotator.toml
 STATE_AT=/var/lib/rotator
+MEMORY_AT=/run/rotator     # the unit keeps it after a stop: what a full or read-only card has refused
 UNIT=/etc/systemd/system/rotator.service
 WATCHDOG=/etc/systemd/system.conf.d/50-rotator-watchdog.conf
 RULES=/etc/udev/rules.d/60-rotator.rules
@@ -265,7 +266,7 @@ remove_it() {
         act "has it start no more" systemctl --quiet disable rotator.service
     fi
     for file in $UNIT $WATCHDOG $RULES $AVAHI $COMMAND; do drop "$file"; done
-    for folder in $CONFIG_AT $STATE_AT; do
+    for folder in $CONFIG_AT $STATE_AT $MEMORY_AT; do
         if [ $keep = no ]; then drop "$folder"
         elif [ "$(stat -c %U "$folder" 2>/dev/null)" = rotator ]; then act "keeps $folder, for root" chown -R root:root "$folder"; fi
     done

@@ -16,7 +16,7 @@ from hypothesis import given
 from rotator import backup
 from rotator.backup import ABOUT, BEFORE, CONFIGURATION, FAILED, FORM, UNDER_WAY, WAITING, BackupError
 from rotator.config.load import parse
-from rotator.store import compass, knobs, learnt, priorities
+from rotator.store import compass, knobs, latch, learnt, priorities, relays, tries
 from rotator.store.whole import write_whole
 
 ABOUT_TEXT = '{"format": "rotator backup 1", "made": "2026-11-23T12:00:00Z", "program": "0.1.0"}'
@@ -261,3 +261,12 @@ def test_what_the_motors_taught_and_the_compass_found_go_along(station: Station)
     for name, (text, decode) in texts.items():
         assert decode(found.parts[name]) == decode(text)
     assert FORM.today == "rotator backup 1"
+
+
+def test_no_file_of_a_backup_has_a_second_place_in_memory_that_would_win_over_it() -> None:
+    spared = {latch.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME}
+    users = [
+        path.stem for path in (Path(backup.__file__).parent / "store").glob("*.py") if "SparedFile(" in path.read_text()
+    ]
+    assert {f"{name}.json" for name in users} - {"spared.json"} == spared
+    assert not spared & set(backup.CHECKS)

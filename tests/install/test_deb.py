@@ -11,7 +11,7 @@ import pytest
 
 from tests.install.conftest import Debs
 from tests.install.roots import Layer, Root, Said
-from tests.install.visit import APT, APTS_OWN, DEB_IMPORTS, THE_GROUPS, WORST_EXPOSURE, exposure
+from tests.install.visit import APT, APTS_OWN, DEB_IMPORTS, REFUSED_BY_THE_CARD, THE_GROUPS, WORST_EXPOSURE, exposure
 
 CONFIG = "/etc/rotator/rotator.toml"
 STATE = "/var/lib/rotator/state.json"
@@ -141,7 +141,9 @@ def test_purged_it_leaves_nothing_but_the_groups(empty: Root) -> None:
     before = empty.inventory(times=False)
     apt(empty, "install", TODAY).check()
     write_of_ones_own(empty)
+    empty.shell(REFUSED_BY_THE_CARD).check()
     apt(empty, "purge", "gs232-rotator").check()
+    assert not empty.at("/run/rotator").exists(), "an old stop, for the next box"
     left = {path for path, _ in before.items() ^ empty.inventory(times=False).items()}
     assert {path for path in left if not path.startswith(APTS_OWN)} == THE_GROUPS
 

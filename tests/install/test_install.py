@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.install.roots import Layer, Root, Said
-from tests.install.visit import WORST_EXPOSURE, exposure
+from tests.install.visit import REFUSED_BY_THE_CARD, WORST_EXPOSURE, exposure
 
 CONFIG = "/etc/rotator/rotator.toml"
 
@@ -164,8 +164,10 @@ def test_removed_nothing_is_left(bare: Root) -> None:
     before = bare.inventory(times=False)
     bare.run("/src/install.sh", "--yes").check()
     assert bare.inventory(times=False) != before
+    bare.shell(REFUSED_BY_THE_CARD).check()
     bare.run("/src/install.sh", "--remove", "--yes").check()
     assert bare.inventory(times=False) == before
+    assert not bare.at("/run/rotator").exists(), "an old stop, for the next box"
     assert bare.run("/src/install.sh", "--remove", "--yes").check().text.startswith("Nothing to do")
 
 
@@ -180,7 +182,9 @@ def test_remove_says_what_is_lost_and_wants_a_yes(installed: Root) -> None:
 
 def test_what_was_kept_is_taken_up_again(installed: Root) -> None:
     installed.shell(f"echo '# mine' >>{CONFIG}; touch /var/lib/rotator/state.json").check()
+    installed.shell(REFUSED_BY_THE_CARD).check()
     installed.run("/src/install.sh", "--remove", "--keep", "--yes").check()
+    assert installed.at("/run/rotator/latch.json").exists(), "it is newer than what the card has"
     assert installed.run("stat", "-c", "%U", CONFIG, "/var/lib/rotator/state.json").lines == ["root", "root"]
     assert installed.run("getent", "passwd", "rotator").code != 0
     installed.run("/src/install.sh", "--yes").check()
