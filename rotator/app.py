@@ -20,23 +20,16 @@ from hw.ports import Axis
 from rotator.assembly.calibration import calibration_controller
 from rotator.assembly.fetching import build_elements_server, build_fetching
 from rotator.assembly.hands import hands
+from rotator.assembly.kept_files import build_latch_file, build_learnt, build_relays_file, build_tries_file
 from rotator.assembly.links import build_links
-from rotator.assembly.settings import (
-    build_controller,
-    build_latch_file,
-    build_learnt,
-    build_mount,
-    build_offsets,
-    build_relays_file,
-    build_tries_file,
-)
+from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station, fitted_panel
 from rotator.assembly.tracking import build_tracking
 from rotator.calibrating.at_start import watch_at_start
 from rotator.calibrating.stops import only_stops
 from rotator.config.model import Config
-from rotator.config.places import console_path, monitor_path, runtime_folder
+from rotator.config.places import console_path, memory_folder, monitor_path
 from rotator.links.console import ConsoleSocket
 from rotator.links.wire import LinkError, Wire
 from rotator.monitor.socket import MonitorSocket
@@ -100,7 +93,7 @@ class App:
         self._service_manager = ServiceManager(os.environ, time.monotonic)
         self._events, page_events = EventWatch(time.monotonic), EventWatch(time.monotonic)
         self.mount = mount = build_mount(config)
-        memory = runtime_folder(os.environ)
+        memory = memory_folder(config.state.path, path, os.environ)
         learnt, relays_file = build_learnt(config), build_relays_file(config, memory)
         latch_file, tries_file = build_latch_file(config, memory), build_tries_file(config, memory)
         # A new start by the page knows the stop even where a full disk has not taken it.

@@ -24,16 +24,10 @@ from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import Axis
 from hw.safety.lines_off import switch_off
 from rotator.assembly.hands import hands
+from rotator.assembly.kept_files import build_learnt, build_relays_file, build_tries_file
 from rotator.assembly.links import session_maker
 from rotator.assembly.panel import panel_thread
-from rotator.assembly.settings import (
-    build_controller,
-    build_learnt,
-    build_mount,
-    build_offsets,
-    build_relays_file,
-    build_tries_file,
-)
+from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.links import Link

@@ -6,14 +6,12 @@ Part of the composition root. Knows which key of the file is which setting. Know
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 from hw.ports import AngleSource, Axis
 from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
 from rotator.config.forbidden import ForbiddenTable
 from rotator.config.model import Config
-from rotator.config.sim import SimAxisTable
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
@@ -28,13 +26,7 @@ from rotator.control.sky.pointing_model import PointingModel
 from rotator.faults import Missing
 from rotator.orders import Mode
 from rotator.status import ALL_OPEN, NO_TRIES, Latch, LearntMotor, Tries, Trusts
-from rotator.store import relays
-from rotator.store.latch import FILE_NAME as LATCH_NAME
-from rotator.store.latch import LatchFile
-from rotator.store.learnt import LearntFile, Motors
-from rotator.store.relays import RelaysFile
-from rotator.store.tries import FILE_NAME as TRIES_NAME
-from rotator.store.tries import TriesFile
+from rotator.store.learnt import Motors
 
 
 def build_offsets(config: Config) -> Offsets:
@@ -63,43 +55,6 @@ def build_sector(table: ForbiddenTable, shift: Offsets) -> Sector:
         azimuth=Range(west_deg + shift.azimuth_deg, east_deg + shift.azimuth_deg),
         elevation=Range(low_deg + shift.elevation_deg, high_deg + shift.elevation_deg),
         margin_deg=table.margin_deg,
-    )
-
-
-def build_relays_file(config: Config, memory: Path | None = None) -> RelaysFile | None:
-    """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays.
-
-    `memory`: a folder in memory, for a card that refuses; None: there is none.
-    """
-    kept = config.keeps_files and config.rotor.switched
-    return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME), memory) if kept else None
-
-
-def build_tries_file(config: Config, memory: Path | None = None) -> TriesFile | None:
-    """The file of what motors were tried for in vain; None where the rotor does not outlive the program."""
-    return TriesFile(Path(config.state.path).with_name(TRIES_NAME), memory) if config.keeps_files else None
-
-
-def build_latch_file(config: Config, memory: Path | None = None) -> LatchFile:
-    return LatchFile(Path(config.state.path).with_name(LATCH_NAME), memory)
-
-
-def build_learnt(config: Config) -> LearntFile:
-    """The file of the learnt motors. It ignores figures that were learnt with other settings of the motor."""
-
-    def described(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
-        motor: dict[str, object] = {"hardware": config.rotor.hardware}
-        motor |= {"speed_dps": table.speed_dps, "coast_s": table.coast_s}
-        if config.rotor.hardware == "sim":
-            motor["sim"] = sim.model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
-        return motor
-
-    return LearntFile(
-        Path(config.state.path),
-        {
-            Axis.AZIMUTH: described(config.azimuth, config.sim.azimuth),
-            Axis.ELEVATION: described(config.elevation, config.sim.elevation),
-        },
     )
 
 

@@ -7,6 +7,7 @@ Knows how a rig is started, stepped and stopped, and that its result is saved. D
 from __future__ import annotations
 
 import asyncio
+import os
 import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractAsyncContextManager
@@ -15,7 +16,7 @@ from typing import Protocol
 
 from hw.ports import Axis
 from rotator.assembly.calibration import compass_path
-from rotator.assembly.settings import build_latch_file
+from rotator.assembly.kept_files import build_latch_file
 from rotator.assembly.station import Station
 from rotator.calibrating.results import AngleConfirmed, Result
 from rotator.calibrating.rig import AxisRig, NorthRig, Rig
@@ -26,6 +27,7 @@ from rotator.calibrating.stops import UNREACHED, Stops
 from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.config.load import ConfigError
 from rotator.config.model import Config
+from rotator.config.places import memory_folder
 from rotator.orbits.sight import Target
 from rotator.runtime.engine import Engine
 from rotator.status import Latch
@@ -158,7 +160,7 @@ class CalibrationSession:
 
     def _keep(self, stopped: Latch) -> None:
         """A stop holds for the box that is started next, too."""
-        file = build_latch_file(self._config)
+        file = build_latch_file(self._config, memory_folder(self._config.state.path, self._path, os.environ))
         file.load()
         file.save(stopped)
 

@@ -24,7 +24,7 @@ from rich.text import Text
 
 from hw.ports import Axis
 from rotator.app import open_station
-from rotator.assembly.settings import build_latch_file
+from rotator.assembly.kept_files import build_latch_file
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.station import Station
 from rotator.calibrating.receiver import BadAddress
@@ -41,7 +41,7 @@ from rotator.cli.run import make_sure_of
 from rotator.cli.screen import draw, log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.config.places import monitor_path
+from rotator.config.places import memory_folder, monitor_path
 from rotator.config.station import NO_PLACE
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, Target
@@ -55,7 +55,7 @@ def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None,
     """`what`: an axis, `north`, or None for both axes. The exit code: 0 when everything has been set up."""
     config = load(path)
     _refuse_beside_running_box(config, path)
-    _refuse_stopped(config)
+    _refuse_stopped(config, path)
     tasks = [axis.value for axis in Axis] if what is None else [what]
     return asyncio.run(_run(config, path, faults, tasks, plain=plain))
 
@@ -78,7 +78,7 @@ def calibrate_sky(
     if config.rotor.hardware != "sim" and at_s is not None:
         raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
     _refuse_beside_running_box(config, path)
-    _refuse_stopped(config)
+    _refuse_stopped(config, path)
     later_s = 0.0 if at_s is None else at_s - time.time()
 
     def utc() -> float:
@@ -247,10 +247,10 @@ def _refuse_beside_running_box(config: Config, path: Path | None) -> None:
             )
 
 
-def _refuse_stopped(config: Config) -> None:
+def _refuse_stopped(config: Config, path: Path | None) -> None:
     """After a stop somebody may be at the mast still: a person at the terminal says that nobody is, and by that ends
     the stop. Raises CommandFailed where nobody says so."""
-    kept = build_latch_file(config)
+    kept = build_latch_file(config, memory_folder(config.state.path, path, os.environ))
     if (stopped := kept.load()) is None:
         return
     held = spoken(held_by(stopped.by, storm=stopped.storm))
@@ -262,7 +262,7 @@ def _refuse_stopped(config: Config) -> None:
     click.echo(_wrapped(f"{held}, and nothing turns in a calibration either.", Console()))
     if not click.confirm("Is nobody at the mast, and shall the stop end?"):
         raise CommandFailed("the stop stays: nothing was done")
-    if not kept.save(None):
+    if not kept.save(None) and not kept.outlives:
         raise CommandFailed("the stop stays: its file cannot be written")
 
 

@@ -14,12 +14,26 @@ INSTALLED = Path("/etc/rotator/rotator.toml")
 """The service's configuration file."""
 MONITOR = "monitor"
 MONITOR_OF_THE_SERVICE = Path("/run/rotator/monitor")
+STATE_OF_THE_SERVICE = Path("/var/lib/rotator")
+"""The folder of the service's state file."""
 
 
 def runtime_folder(environment: Mapping[str, str]) -> Path | None:
     """The folder that the service manager has made for this run; None without a service manager."""
     folder = environment.get("RUNTIME_DIRECTORY", "").split(":")[0]
     return Path(folder) if folder else None
+
+
+def memory_folder(state: str, config: Path | None, environment: Mapping[str, str]) -> Path | None:
+    """The folder in memory with what a card has refused, the same for all programs that use these files; None: none.
+
+    `state`: the key state.path. `config`: the configuration file. A command that a person starts has no service
+    manager, and yet must know the stop that the service has kept there.
+    """
+    if folder := runtime_folder(environment):
+        return folder
+    service = config is not None and config.resolve() == INSTALLED
+    return MONITOR_OF_THE_SERVICE.parent if service or Path(state).absolute().parent == STATE_OF_THE_SERVICE else None
 
 
 def monitor_path(state: str, monitor: str | None, environment: Mapping[str, str]) -> Path:

@@ -40,6 +40,11 @@ class LatchFile:
         self._file = SparedFile(path, FORM, "a latched stop", memory)
         self._kept = Kept.NOTHING
 
+    @property
+    def outlives(self) -> bool:
+        """Whether what was saved last outlives the program: it is on the card, or in memory."""
+        return self._file.outlives
+
     def load(self) -> Latch | None:
         """The stop that the last run left, in words for the new run; None: no stop."""
         latch = self._file.load(

@@ -43,7 +43,10 @@ class SparedFile:
     @property
     def in_memory(self) -> bool:
         """Whether an earlier run in this boot left something newer than what is on the card."""
-        return self._memory is not None and self._memory.path.exists()
+        try:
+            return self._memory is not None and self._memory.path.exists()
+        except OSError:
+            return True  # a folder that this user may not read: `load` says so, and believes nothing
 
     def load(self, parse: Parse[T], *, absent: T, damaged: T, consequence: str) -> T:
         """The newer content. As `JsonFile.load`."""

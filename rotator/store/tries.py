@@ -3,10 +3,13 @@
 Knows the file's form. A clock may jump, and a Pi without a network has none. So the file has no times, and after a
 restart each try counts for its whole time again. The card is written when a fault stops a motor, when a person releases
 it, and when the time is over. A running motor without visible motion yet is noted only in memory.
+A place at which an axis stood is an angle, and means another place once the calibration or a limit is another one. So
+the file has the settings beside it. After a change of them the count stays, and the places are forgotten.
 """
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -19,28 +22,40 @@ from rotator.store.forms import Form
 from rotator.store.json_file import number
 from rotator.store.spared import SparedFile
 
+log = logging.getLogger(__name__)
+
 FILE_NAME = "tries.json"
 """Beside the state file."""
 FORM = Form("rotator tries")
 NOTHING: Mapping[Axis, Tries] = dict.fromkeys(Axis, NO_TRIES)
+NOWHERE: Places = (None, None)
 MOST_TRIES = 10
 REFUSED_EVERY = 10
-"""A card that refuses is written again at each change of its content, and without a change once in this many calls."""
+"""What a card has refused is tried again when `save` is called with the very same, and else once in this many calls."""
 WIDEST_DEG = 1000.0
 """Degrees: no rotor turns further."""
+
+ScaleSettings = Mapping[str, object]
+"""The settings of an axis that its angles depend on, in the types of JSON."""
 
 
 class TriesFile:
     """Call `load` first, then `save` after each change. Failures go to the log, and nothing is raised."""
 
-    def __init__(self, path: Path, memory: Path | None = None) -> None:
-        """`memory`: a folder that outlives the program, and not a boot; None: there is none."""
+    def __init__(
+        self, path: Path, memory: Path | None = None, settings: Mapping[Axis, ScaleSettings] | None = None
+    ) -> None:
+        """`memory`: a folder that outlives the program, and not a boot; None: there is none. `settings`: the present
+        ones; None: they never change."""
+        self._settings = {axis: dict((settings or {}).get(axis, {})) for axis in Axis}
         self._file = SparedFile(path, FORM, "what the motors were tried for in vain", memory)
         self._written: dict[Axis, Tries] | None = None
         """The content of the card; None: not known."""
         self._refused: dict[Axis, Tries] | None = None
         self._refusals = 0
         """The last content that the card refused, and the number of calls since."""
+        self._last: dict[Axis, Tries] | None = None
+        """What the last call of `save` was given."""
 
     @property
     def trouble(self) -> str:
@@ -48,51 +63,69 @@ class TriesFile:
         return self._file.trouble
 
     def load(self) -> dict[Axis, Tries]:
-        """The tries that the last run left. A run without visible motion of its axis counts as a try."""
-        none, damaged = dict.fromkeys(Axis, NO_TRIES), dict.fromkeys(Axis, NO_TRIES)
+        """The tries that the last run left. A run without visible motion of its axis counts as a try.
+
+        Without its places where the axis has other settings by now.
+        """
+        none: dict[Axis, tuple[Tries, ScaleSettings]] = {axis: (NO_TRIES, self._settings[axis]) for axis in Axis}
+        damaged = dict(none)
         on_card = not self._file.in_memory
         kept = self._file.load(_parse, absent=none, damaged=damaged, consequence="ignored, no motor counts as tried")
         if on_card and kept is not damaged:
-            self._written = kept
-        return {axis: replace(each, faults=each.faults + each.driven, driven=False) for axis, each in kept.items()}
+            self._written = {axis: tries for axis, (tries, _) in kept.items()}
+        return {axis: self._for_this_run(axis, *each) for axis, each in kept.items()}
+
+    def _for_this_run(self, axis: Axis, tries: Tries, settings: ScaleSettings) -> Tries:
+        tries = replace(tries, faults=tries.faults + tries.driven, driven=False)
+        if settings == self._settings[axis] or (tries.stood_deg, tries.stops_deg) == (NOWHERE, NOWHERE):
+            return tries
+        log.info("%s: %s has been set up anew since; the stops that it met are forgotten", self._file.path, axis.value)
+        return replace(tries, stood_deg=NOWHERE, stops_deg=NOWHERE)
 
     def save(self, tries: Mapping[Axis, Tries]) -> bool:
-        """Write the changes. False: they would not outlive the program."""
+        """Write the changes. False: the card has not taken them; call it again after a pause, with the same."""
         counted = {axis: replace(each, driven=False) for axis, each in tries.items()}
-        if counted != self._written and not self._refuses(counted):
-            kept = self._file.save(_content(counted))
-            self._written, self._refused = (counted, None) if kept else (self._written, counted)
+        again, self._last = tries == self._last, dict(tries)
+        if counted != self._written and (not self._refuses(counted) or again):
+            # After a refusal it is not known what is on the card: the next content is written, whatever it is.
+            kept = self._file.save(self._content(counted))
+            self._written, self._refused = (counted, None) if kept else (None, counted)
         if tries == self._written:
             self._file.forget_note()
         else:
-            self._file.note(_content(tries))
-        return self._file.outlives
+            self._file.note(self._content(tries))
+        return self._written is not None
 
     def _refuses(self, counted: dict[Axis, Tries]) -> bool:
         """Whether the card has just refused the same: a dying card is not written for each start of a motor."""
         self._refusals = self._refusals + 1 if counted == self._refused else 0
         return self._refusals % REFUSED_EVERY != 0
 
-
-def _content(tries: Mapping[Axis, Tries]) -> dict[str, object]:
-    return {
-        "axes": {
-            axis.value: {
-                "faults": each.faults,
-                "kind": each.kind.name if each.kind else "",
-                "stood_deg": each.stood_deg,
-                "stops_deg": each.stops_deg,
-                "pressed": each.pressed,
-                "driven": each.driven,
+    def _content(self, tries: Mapping[Axis, Tries]) -> dict[str, object]:
+        return {
+            "axes": {
+                axis.value: {
+                    "settings": self._settings[axis],
+                    "faults": each.faults,
+                    "kind": each.kind.name if each.kind else "",
+                    "stood_deg": each.stood_deg,
+                    "stops_deg": each.stops_deg,
+                    "pressed": each.pressed,
+                    "driven": each.driven,
+                }
+                for axis, each in tries.items()
             }
-            for axis, each in tries.items()
         }
-    }
 
 
-def _parse(content: dict[str, Any]) -> dict[Axis, Tries]:
+def _parse(content: dict[str, Any]) -> dict[Axis, tuple[Tries, ScaleSettings]]:
     axes = dict(content["axes"])
-    return {axis: _tries(axes[axis.value]) if axis.value in axes else NO_TRIES for axis in Axis}
+    return {axis: _axis(axes[axis.value]) if axis.value in axes else (NO_TRIES, {}) for axis in Axis}
+
+
+def _axis(table: Mapping[str, Any]) -> tuple[Tries, ScaleSettings]:
+    # An earlier version of the program wrote no settings: which they were is not known.
+    return _tries(table), dict(table.get("settings", {}))
 
 
 def _tries(table: Mapping[str, Any]) -> Tries:

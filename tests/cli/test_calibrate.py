@@ -20,6 +20,7 @@ from rotator.config.load import load, parse
 from rotator.config.places import console_path
 from rotator.status import Latch
 from rotator.store.latch import FILE_NAME, LatchFile
+from rotator.store.whole import NEW
 
 LIMIT_S = 60.0
 STATION = """# A fast one.
@@ -221,6 +222,62 @@ def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tm
     assert "Call it in a terminal" in " ".join(text.split())
 
 
+def refuse(folder: Path) -> Path:
+    """The card of this station refuses the file of a stop until what is returned is gone."""
+    blocked = folder / (FILE_NAME + NEW)
+    blocked.mkdir()
+    return blocked
+
+
+@pytest.fixture
+def memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The service's folder in memory, for a calibration too."""
+    folder = tmp_path / "memory"
+    monkeypatch.setenv("RUNTIME_DIRECTORY", str(folder))
+    return folder
+
+
+def test_nothing_turns_after_a_stop_that_only_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
+    blocked = refuse(tmp_path)
+    LatchFile(tmp_path / FILE_NAME, memory).save(Latch("panel"))
+    blocked.rmdir()
+    text, code = finish(start("--config", str(kept_station(tmp_path))))
+    assert code == 1
+    assert "stopped by the panel before the restart: " in " ".join(text.split())
+
+
+def test_a_stop_during_a_calibration_is_newer_than_what_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
+    path = kept_station(tmp_path)
+    LatchFile(tmp_path / FILE_NAME).save(Latch("panel"))
+    blocked = refuse(tmp_path)
+    released = LatchFile(tmp_path / FILE_NAME, memory)
+    released.load()
+    released.save(None)
+    blocked.rmdir()
+    process = start("--config", str(path), "azimuth")
+    read_until(process, "> Press r")
+    subprocess.run([sys.executable, "-m", "rotator", "stop", "--config", str(path)], check=True, timeout=LIMIT_S)
+    process.communicate(timeout=LIMIT_S)
+    for folder in (None, memory):
+        stopped = LatchFile(tmp_path / FILE_NAME, folder).load()
+        assert stopped is not None
+        assert stopped.by.startswith("console")
+
+
+def test_a_stop_that_is_ended_where_the_card_refuses_stays_ended(
+    start_in_terminal: Callable[..., Any], tmp_path: Path, memory: Path
+) -> None:
+    path = kept_station(tmp_path)
+    LatchFile(tmp_path / FILE_NAME).save(Latch("keyboard"))
+    refuse(tmp_path)
+    calibration = start_in_terminal("calibrate", "--config", path)
+    calibration.until("Is nobody at the mast, and shall the stop end")
+    calibration.press("y\r")
+    calibration.until("Setting up the azimuth")
+    assert LatchFile(tmp_path / FILE_NAME, memory).load() is None
+    calibration.stop()
+
+
 @pytest.mark.parametrize(("answer", "left"), [("y", False), ("n", True)])
 def test_at_a_terminal_a_person_says_that_nobody_is_at_the_mast(
     start_in_terminal: Callable[..., Any], tmp_path: Path, answer: str, left: bool
@@ -234,6 +291,7 @@ def test_at_a_terminal_a_person_says_that_nobody_is_at_the_mast(
     calibration.press(f"{answer}\r")
     calibration.until("Setting up the azimuth" if not left else "the stop stays: nothing was done")
     assert (kept.load() is not None) is left
-    if not left:
-        calibration.press("q")
-    calibration.ends()
+    if left:
+        calibration.ends()
+    else:
+        calibration.stop()  # a key may come before the keys are read

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.assembly.settings import build_learnt
+from rotator.assembly.kept_files import build_learnt
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.save import save_table

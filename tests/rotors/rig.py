@@ -18,7 +18,8 @@ import tomlkit
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import AngleSource, Axis
-from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
+from rotator.assembly.kept_files import build_learnt
+from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped

@@ -9,7 +9,8 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
-from rotator.assembly.settings import build_controller, build_learnt, build_offsets
+from rotator.assembly.kept_files import build_learnt
+from rotator.assembly.settings import build_controller, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.load import load
 from rotator.orders import Aim, Calibrate, Order

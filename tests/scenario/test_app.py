@@ -17,6 +17,7 @@ from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, AngleSource, Axis, CharacterDisplay, Direction, HardwareError
 from hw.safety.guard import GUARD_THREAD
 from rotator.app import App, open_station
+from rotator.assembly.kept_files import build_tries_file
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.faults import FaultKind
@@ -28,7 +29,6 @@ from rotator.runtime.engine import CONTROL_THREAD
 from rotator.runtime.sensor_thread import SENSORS_THREAD
 from rotator.sources import Source
 from rotator.status import NO_TRIES, Tries
-from rotator.store.tries import TriesFile
 from tests.boxes import free_port
 
 PATIENCE_S = 60.0
@@ -152,12 +152,15 @@ def position(reply: bytes) -> tuple[int, int]:
 def test_an_axis_that_is_set_up_on_the_page_is_released_and_the_other_is_not(tmp_path: Path, axis: Axis) -> None:
     text = f'[state]\npath = "{tmp_path}/state.json"\n[sim]\nworld = "{tmp_path}/world"\n'
     tried = Tries(2, FaultKind.END_STOP, (440.0, None), (440.0, None))
-    TriesFile(tmp_path / "tries.json").save(dict.fromkeys(Axis, tried))
+    config = parse(text, "a test's file")
+    kept = build_tries_file(config)
+    assert kept is not None
+    kept.save(dict.fromkeys(Axis, tried))
     anew, other = Anew(), next(each for each in Axis if each is not axis)
     anew.sets_up = axis
 
     async def set_up() -> None:
-        app, stop = App(parse(text, "a test's file"), anew=anew), asyncio.Event()
+        app, stop = App(config, anew=anew), asyncio.Event()
         task = asyncio.create_task(app.run(stop))
         async with asyncio.timeout(PATIENCE_S):
             while not task.done() and app.loop.status.axis(other).angle_deg is None:
@@ -169,8 +172,7 @@ def test_an_axis_that_is_set_up_on_the_page_is_released_and_the_other_is_not(tmp
         await task
 
     asyncio.run(set_up())
-    kept = TriesFile(tmp_path / "tries.json").load()
-    assert kept == {each: NO_TRIES if each is axis else tried for each in Axis}
+    assert kept.load() == {each: NO_TRIES if each is axis else tried for each in Axis}
 
 
 # --- running

@@ -14,7 +14,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Direction
-from rotator.assembly.settings import build_learnt
+from rotator.assembly.kept_files import build_learnt
 from rotator.control.axis.motion import Motor
 from rotator.status import LearntMotor
 from rotator.store import compass, counts, knobs, learnt

@@ -108,6 +108,18 @@ def test_memory_keeps_a_stop_that_the_card_refuses(tmp_path: Path) -> None:
     assert not list(memory.iterdir())
 
 
+def test_it_says_whether_a_release_that_the_card_refuses_outlives_the_program(tmp_path: Path) -> None:
+    path, memory = tmp_path / "latch.json", tmp_path / "memory"
+    LatchFile(path).save(STOP)
+    path.with_name(path.name + NEW).mkdir()
+    for folder, outlives in ((None, False), (memory, True)):
+        file = LatchFile(path, folder)
+        file.load()
+        assert not file.save(None)
+        assert file.outlives is outlives
+        assert (LatchFile(path, folder).load() is None) is outlives
+
+
 @pytest.mark.parametrize("before", [None, STORM])
 @pytest.mark.parametrize("latch", [STOP, STORM, None])
 def test_what_memory_alone_kept_is_written_to_the_card_by_the_next_run(

@@ -90,7 +90,7 @@ def test_memory_keeps_what_the_card_refuses(path: Path, memory: Path, *, ran: bo
     blocked = refuse(path)
     file = TriesFile(path, memory)
     assert file.load() == NOTHING
-    assert file.save(TRIED | {AZ: replace(TRIED[AZ], driven=ran)})
+    assert not file.save(TRIED | {AZ: replace(TRIED[AZ], driven=ran)}), "who calls it is to try again"
     assert file.trouble
     assert TriesFile(path, memory).load() == TRIED | {AZ: replace(TRIED[AZ], faults=2 + ran)}
     blocked.rmdir()
@@ -98,6 +98,34 @@ def test_memory_keeps_what_the_card_refuses(path: Path, memory: Path, *, ran: bo
     later.save(later.load())
     assert not later.trouble
     assert TriesFile(path).load() == TriesFile(path, memory).load() == later.load()
+
+
+@pytest.mark.parametrize("latest", [TRIED, TRIED | {AZ: replace(TRIED[AZ], driven=True)}, NOTHING])
+@pytest.mark.parametrize("before", [NOTHING, TRIED])
+def test_called_again_with_the_same_it_ends_the_trouble_once_the_card_is_well(
+    path: Path, memory: Path, before: dict[Axis, Tries], latest: dict[Axis, Tries]
+) -> None:
+    file = TriesFile(path, memory)
+    assert file.save(before)
+    blocked = refuse(path)
+    assert not file.save(dict.fromkeys(Axis, NO_TRIES) | {EL: Tries(pressed=True)})
+    assert not file.save(latest)
+    assert not file.save(latest)
+    assert file.trouble
+    blocked.rmdir()
+    assert file.save(latest)
+    assert not file.trouble
+    assert TriesFile(path).load() == {axis: replace(each, driven=False) for axis, each in latest.items()}
+
+
+def test_a_refusing_card_is_not_written_for_each_start_of_a_motor(path: Path, memory: Path) -> None:
+    blocked = refuse(path)
+    file = TriesFile(path, memory)
+    file.save(TRIED)
+    blocked.rmdir()
+    for driven in (True, False, True):
+        assert not file.save(TRIED | {AZ: replace(TRIED[AZ], driven=driven)})
+    assert not path.exists()
 
 
 def test_without_a_place_in_memory_a_refusing_card_is_said(path: Path) -> None:
@@ -128,3 +156,30 @@ def test_a_damaged_file_is_not_believed(path: Path, old: str, new: str, caplog: 
     assert len(caplog.records) == 1
     file.save(NOTHING)
     assert TriesFile(path).load() == NOTHING
+
+
+@pytest.mark.parametrize("in_memory", [False, True])
+@pytest.mark.parametrize("old", [{"limits_deg": [0.0, 450.0]}, {}])
+def test_an_axis_that_was_set_up_anew_forgets_its_places_and_keeps_its_count(
+    path: Path, memory: Path, old: dict[str, object], in_memory: bool
+) -> None:
+    now: dict[str, object] = {"limits_deg": [0.0, 180.0]}
+    kept = TRIED | {EL: Tries(1, FaultKind.STANDS_STILL, (None, 3.0), (None, 3.0))}
+    blocked = refuse(path) if in_memory else None
+    TriesFile(path, memory, {AZ: old, EL: now}).save(kept)
+    if blocked:
+        blocked.rmdir()
+    file = TriesFile(path, memory, {AZ: now, EL: now})
+    expected = kept | {AZ: replace(TRIED[AZ], stood_deg=(None, None), stops_deg=(None, None))}
+    assert file.load() == expected
+    assert file.save(expected)
+    back = TriesFile(path, memory, {AZ: old, EL: now})
+    assert back.load() == expected, "a way back to the old settings brings no old place back"
+
+
+def test_places_of_a_file_without_settings_are_not_believed(path: Path) -> None:
+    TriesFile(path).save(TRIED)
+    path.write_text(path.read_text().replace('"settings": {},', ""))
+    assert TriesFile(path).load() == TRIED
+    known = TriesFile(path, settings={AZ: {"offset_deg": 0.0}}).load()
+    assert known == TRIED | {AZ: replace(TRIED[AZ], stood_deg=(None, None), stops_deg=(None, None))}
