@@ -27,6 +27,8 @@ LOOK_S = 0.2
 """The time between two looks at the antenna, in seconds."""
 TAKEN_LOOKS = 5
 """An order shows in the status after so many looks at the latest. A relay's dead time is shorter too."""
+BEGINS_LOOKS = 20
+"""A jog begins after at most this many looks: the box first watches the axis stand, and a relay may have to wait."""
 HOMING_LOOKS = 15
 """An axis that homes pauses within its homing, for less than so many looks."""
 ZENITH_DEG = 90.0
@@ -58,7 +60,7 @@ def jog(path: Path | None, direction: str, seconds: float, *, wait: bool) -> Non
             box.order(f"jog {direction} {typed(seconds)}")
             if not wait:
                 return click.echo("The box has the order.")
-            after, ours = _watched(box, before, (axis,))
+            after, ours = _watched(box, before, (axis,), begins=BEGINS_LOOKS)
     _judge(after, ours, (axis,), "the jog")
     if before[axis]["angle_deg"] is None or after[axis]["angle_deg"] is None:
         return click.echo(f"{axis}: its angle is not known.")
@@ -119,14 +121,15 @@ def _judge(after: BoxStatus, ours: str, axes: Sequence[str], what: str) -> None:
 
 
 def _watched(
-    box: RunningBox, before: BoxStatus, axes: Sequence[str], patience: int = TAKEN_LOOKS
+    box: RunningBox, before: BoxStatus, axes: Sequence[str], patience: int = TAKEN_LOOKS, begins: int = 0
 ) -> tuple[BoxStatus, str]:
     """The status when these axes stand and have nothing to do, or when another sender has the antenna.
 
     And what the box calls this command; empty: it was never seen to move the antenna. `before`: the status before the
-    order. The box gives each connection a new name, so who moved the antenna then is not this command.
+    order. The box gives each connection a new name, so who moved the antenna then is not this command. `begins`: the
+    looks until an order that has no target, and so does not show before it, must have begun.
     """
-    still, ours = 0, ""
+    still, ours, begun = 0, "", False
     with _row() as show:
         while True:
             status = box.status()
@@ -135,8 +138,8 @@ def _watched(
                 return status, ours
             ours = mover if mover.startswith(CONSOLE) and mover != before["moved_by"] else ours
             busy = any(_is_busy(status[axis]) for axis in axes)
-            still = 0 if busy else still + 1
-            if still >= patience:
+            begun, still = begun or busy, 0 if busy else still + 1
+            if still >= (patience if begun else max(patience, begins)):
                 return status, ours
             show("   ".join(_progress(status, axis) for axis in axes))
             time.sleep(LOOK_S)

@@ -105,6 +105,12 @@ def test_a_jog_says_how_far_it_went(scripted: Any, rotator_here: Rotator, config
     assert console.heard == ["jog cw 1.5"]
 
 
+def test_a_jog_that_waits_for_its_relay_is_waited_for(scripted: Any, rotator_here: Rotator, config: Path) -> None:
+    """The box watches a counted axis stand before it closes the first relay."""
+    scripted(counted(20), *[counted(20)] * 10, counted(30, turns=True), counted(32.5))
+    assert said(rotator_here("jog", "cw", "1.5", "--config", config)) == "azimuth 32.5° counted: +12.5° from before.\n"
+
+
 @pytest.mark.parametrize("order", [["point", 180, 45], ["park"], ["jog", "up", 1]])
 def test_without_waiting(scripted: Any, rotator_here: Rotator, config: Path, order: list[Any]) -> None:
     console = scripted(on_its_way(100))
