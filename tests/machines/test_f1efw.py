@@ -52,7 +52,7 @@ def obeys(machine: Shack, terminal: Terminal, azimuth: int, elevation: int, chan
     assert shown(machine, 1)[0] == "SIM", "a simulated antenna is never mistaken for a real one"
     where = machine.rotator("where")
     assert f"wanted: {azimuth:.1f}° {elevation:.1f}°" in where
-    assert "moved by: gs232-f1efw#" in where
+    assert "moved by: gs232-f1efw\n" in where
     assert terminal.answer(patience_s=0.2) == "", "the sketch never answers"
 
 
