@@ -42,7 +42,7 @@ PASS_S = 75.0
 COMPUTED_MS = 150_000
 LONGEST_S = 1800.0
 STANDS_DEG = 0.5
-TOLD = re.compile(r"(\d+) presses, (\d+) fields typed or\s+chosen, (\d+) presses that turn the rotor")
+TOLD = re.compile(r"(\d+) presses, (\d+) fields typed or\s+chosen, (\d+) presses that\s+turn the rotor")
 
 
 @pytest.fixture
