@@ -85,7 +85,7 @@ class Silence:
         self._lasting = [each for each in self._lasting if each.name != plain(name)]
 
     def acknowledged(self) -> None:
-        """Somebody has stopped the box or let it go, or the program begins anew."""
+        """The box was stopped or released, or the program begins again."""
         self._lasting = [each for each in self._lasting if not each.rule.heals]
 
     def pause(self, now_s: float) -> None:

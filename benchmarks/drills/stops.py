@@ -31,7 +31,7 @@ class Stops:
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
-        """When somebody last stopped both axes, or a person let it go: faults are acknowledged."""
+        """Time of the last stop of both axes or the last release: both acknowledge faults."""
         self.released_s = 0.0
         """When a person last let it go. A restart of the program does not count."""
         self.storm = Storm.NONE

@@ -1,7 +1,7 @@
 """What the box must tell of each fault of the simulators: within how long, and when there is anything to be seen.
 
-Knows every name of every kind of rotor, without its axis: a rule, or in words why nobody is told. Does not listen to
-the box; `silence` does.
+Knows every name of every kind of rotor, without its axis: a rule, or the reason why no message is due. Does not listen
+to the box; `silence` does.
 """
 
 from __future__ import annotations
@@ -135,9 +135,9 @@ UNTOLD: Mapping[str, str] = {
     "lines-late": ADAPTER,
     **{f"{part}-{how}": NO_MOTION for part in ("lcd", "compass") for how in ("gone", "noisy", "gaps")},
 }
-"""Why nobody is told: what cannot be seen, or what moves nothing."""
+"""Why no message is due: the fault cannot be seen, or moves nothing."""
 PANEL = "panel-"
-"""What is wrong with a panel moves no motor: the tests of the panel say what is told."""
+"""What is wrong with a panel moves no motor: the tests of the panel judge its messages."""
 
 
 def plain(name: str) -> str:
