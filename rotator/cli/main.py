@@ -24,7 +24,7 @@ from rotator.cli.sky_commands import sky
 
 INDENT = len("rotator: ")
 START = """Start here: `rotator run` begins a simulated box; `rotator point 180 45` in another terminal turns it.
-`rotator COMMAND --help` has an example of each command."""
+`rotator COMMAND --help` has an example of each command; `rotator help wiring` prints a page of the documentation."""
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]}, epilog=START)
