@@ -2,8 +2,8 @@
 
 Two boxes run as a user starts them, with every protocol that TCP or UDP carries and a pseudo-terminal. Clients come and
 go, send good, damaged and random bytes in random pieces, read or do not, leave politely or not. On the first box every
-link is read_only, so whatever is sent the antenna must not move by a tenth of a degree. On the second one orders count:
-it must stay within its range, and stop when told. Both must answer a good question on every link all along, log no
+link is read_only: no bytes may move the antenna by a tenth of a degree. On the second one orders count:
+it must stay within its range, and obey a stop. Both must answer a good question on every link all along, log no
 mistake of ours, and not grow. What is found is printed with the seed.
 """
 
@@ -118,7 +118,7 @@ async def watch(box: Box, until_s: float) -> list[str]:
 
 
 async def stops(box: Box) -> list[str]:
-    """Nobody sends any more: a stop, and it stands."""
+    """All senders have ended: a stop, and it stands."""
     await box.ask("rotctld", b"\nS\n", b"RPRT")
     async with asyncio.timeout(PATIENCE_S):
         while b"MOVING" in (await box.ask("rotctld", b"\ns\n", b"\n") or b"MOVING"):

@@ -3,7 +3,7 @@
 The twelve passes flown in simulated time by each of the shipped configurations, on the simulated rotor of its kind,
 from whole degrees once a second; the moteus from hundredths too. Prints a Markdown table, with `--each` every flight
 beneath it; every figure is the same on every machine. A rotor without overlap has to turn right round on the three
-passes that cross north: those are told apart.
+passes that cross north: those have rows of their own.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Counts the words of the pages: `python -m docs.words`.
 
 A word holds a letter or a digit: the bars and dashes of a table are none. Reference pages, and what is generated on the
-others, are told apart from what is read. The last line has the plain count of `wc -w` beside it.
+others, are counted apart from the text that a person reads. The last line has the plain count of `wc -w` beside it.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The sources as they are handed out: which files, of which version, of which moment.
 
 Knows git, and a folder without git, as unpacked from an sdist. Knows nothing of archives. Two builds of one commit must
-give the same bytes: so each file comes from git's own list, with one mode and one time, whatever the builder's folder,
-clock and umask are.
+give the same bytes: so each file comes from git's own list, with one mode and one time; the builder's folder, clock
+and umask have no part in it.
 """
 
 from __future__ import annotations

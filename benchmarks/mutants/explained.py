@@ -1,7 +1,7 @@
 """The file of survivors that are explained: changes which no test needs to see, each with its reason.
 
 Knows the file's form. An entry names the file, the line as it stands, and the line as changed; an entry whose line no
-longer stands in its file is stale, and is told.
+longer stands in its file is stale; the command names it.
 """
 
 from __future__ import annotations

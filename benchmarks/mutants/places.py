@@ -21,7 +21,7 @@ from cosmic_ray.plugins import get_operator, operator_names
 from parso.python.tree import Keyword
 
 UNLIKELY = ("ReplaceComparisonOperator_Is", "ReplaceBinaryOperator_BitOr_", "ReplaceUnaryOperator_UAdd")
-"""Nobody writes `a > None` for `a is None` by mistake, or another operator in `int | None`."""
+"""`a > None` for `a is None`, or another operator in `int | None`, is no mistake that a person makes."""
 Position = tuple[int, int]
 """Line from 1, column from 0."""
 

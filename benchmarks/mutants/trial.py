@@ -86,7 +86,7 @@ class Copy:
         for name in COPIED:
             shutil.copytree(checkout / name, folder / name, ignore=unwanted)
         shutil.copy(checkout / "pyproject.toml", folder)
-        # Bytecode that is checked by the source's hash: a changed file is compiled anew, whatever its time says.
+        # Bytecode that is checked by the source's hash: a changed file is compiled anew, also with an old time stamp.
         compileall.compile_dir(folder, quiet=2, invalidation_mode=py_compile.PycInvalidationMode.CHECKED_HASH)
 
     def tests_of(self, file: str) -> Tests:
@@ -162,7 +162,7 @@ class Copy:
             del sys.modules[name]
         hypothesis.settings.register_profile("mutants", database=None, derandomize=True)
         hypothesis.settings.load_profile("mutants")
-        # Hypothesis is loaded before pytest could rewrite its assertions, which nobody needs.
+        # Hypothesis is loaded before pytest could rewrite its assertions, which no trial needs.
         loaded = ("-W", "ignore::pytest.PytestAssertRewriteWarning")
         return int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", *loaded, *tests]))
 

@@ -163,7 +163,7 @@ async def _stop(box: Box) -> None:
 
 
 async def _stands(box: Box, until_s: float) -> list[str]:
-    """Nobody has given an order since the stop: no relay is on."""
+    """There was no order since the stop: no relay is on."""
     world = box.world()
     while time.monotonic() < until_s:
         await asyncio.sleep(LOOK_S)

@@ -118,7 +118,7 @@ NUMBER = re.compile(r"[-+]?[0-9]{1,4}(?:[.,][0-9]{0,4})?")
 def from_line(line: str) -> Entry:
     """One line: a letter or its word (`y`, `yes`), a number, or `r 1.5` for a press of that many seconds.
 
-    A line that begins with `s` or `stop` always stops, whatever follows.
+    A line that begins with `s` or `stop` always stops, also with more behind it.
     """
     text = line.strip().lower()
     word, _, rest = text.partition(" ")

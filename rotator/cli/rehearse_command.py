@@ -60,7 +60,8 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     The first line of such a file is t,az,el. Each further line is a moment in seconds, and the satellite's azimuth and
     elevation in degrees, with decimal points: 12.5,274.6,8.1. Your tracking program can export them.
 
-    The time is simulated: ten minutes take some seconds. So is the rotor, whatever the file of --config says.
+    The time is simulated: ten minutes take some seconds. So is the rotor, also where
+    the file of --config names a real one.
     """
     from rotator.cli.rehearse import rehearse_pass
 

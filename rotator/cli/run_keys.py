@@ -64,7 +64,7 @@ class RunKeys:
 
     def _letter(self, letter: str) -> None:
         typed = self._typed + letter
-        # Also at the end of a line that is no word: whoever types it wants the antenna to stand.
+        # Also at the end of a line that is no command: a person who types it wants the antenna to stand.
         if typed.endswith(STOP_WORD):
             self._stop(f"{STOP_WORD}: done")
         else:
@@ -91,7 +91,7 @@ class RunKeys:
     def _show(self, typed: str, remark: str = "") -> None:
         self._typed = typed
         if typed:
-            # A line that is spoilt looks the same whatever follows, so that it is told once.
+            # Shown up to the first wrong letter: what is typed after it changes nothing.
             self.line = f"> {_to_first_slip(typed)}_  {_next(typed)}"
         else:
             self.line = remark

@@ -75,7 +75,7 @@ async def draw(
 ) -> None:
     """Draw until cancelled, and pass single keys to `key`. Text printed on `console` stays above the picture.
 
-    `whole_screen`: the picture has the whole terminal, whatever size it gets, and gives it back as it was.
+    `whole_screen`: the picture fills the terminal, also after a change of its size; at the end the old text is back.
     """
     with keys_to(key), Live(console=console, auto_refresh=False, screen=whole_screen) as live:
         while True:

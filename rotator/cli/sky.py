@@ -86,7 +86,7 @@ def show_passes(
     errors_deg = [_error_deg(target, each, clock_s) for target, each in found]
     if as_json:
         plan = sky_plan.planned(config, sky_plan.followed_by(config, site, catalogue), from_s, hours)
-        # A long pass may be flown in parts: its first one is told.
+        # A long pass may be flown in parts: the row is that of the first one.
         parts = {(each.name, each.found.tca_s): each for each in reversed(plan)}
         rows = []
         for (_, each), error_deg in zip(found, errors_deg, strict=True):

@@ -2,8 +2,8 @@
 
 A person who calls it sees the antenna run into something, and the whole program takes a second to load on a Pi. Without
 a file it stops the box of this folder, the service, and this user's other boxes; for root every user's. A stop counts
-whatever words follow it. Where an option or the file is unusual, it leaves the command to the slow way, which has the
-error texts.
+also with more words behind it. Where an option or the file is unusual, it leaves the command to the slow way, which has
+the error texts.
 """
 
 from __future__ import annotations

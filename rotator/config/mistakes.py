@@ -72,8 +72,7 @@ def _counted(text: str, several: Collection[str]) -> str:
 
 
 def _tell(mistake: Mistake, found: list[Mistake], whys: Mapping[int, str]) -> None:
-    """Add a mistake. One of a line that was wrong before is told in one with that: each advice alone would lead to the
-    other."""
+    """Add a mistake. Two mistakes of one line become one text: the advice of each alone would lead to the other."""
     line = mistake.lines[0] if len(mistake.lines) == 1 else 0
     before = next((at for at, each in enumerate(found) if line in whys and each.lines == (line,)), None)
     if before is None or "; and " in found[before].text:

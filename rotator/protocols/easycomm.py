@@ -81,7 +81,7 @@ class Word:
 def parse(line: bytes, level: Level) -> tuple[Word, ...]:
     """The commands in one line, without its end.
 
-    A pair of `AZ` and `EL` with their numbers counts anywhere in the line, in either order, whatever stands before,
+    A pair of `AZ` and `EL` with their numbers counts anywhere in the line, in either order, with any text before,
     between and behind them. When one of the two is damaged (`AZ1x0`, `AZ1 20.5`, `EL` alone beside an azimuth), only
     the stops of the line count. A single angle counts only between blanks and in a line without anything strange: the
     strange part may be what is left of the other angle. So does any other command. Words that begin with other letters

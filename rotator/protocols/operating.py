@@ -94,7 +94,7 @@ class Operating:
         return self._tracking_held() or self._tracking.track(words) or self._hold()
 
     def _leave_to_plan(self, tracking: Tracking) -> str:
-        """The plan of many passes flies only while nobody holds the antenna: whoever asks for it gives it back."""
+        """The plan of many passes flies only while no sender holds the antenna: who asks for it gives it back."""
         status = self._box.status()
         holder = status.held_by if status.held_by != str(self._source) else ""
         held = f"{holder} holds the antenna: the plan is not flown before it is given back" if holder else ""
@@ -139,7 +139,7 @@ class Operating:
     def _held(self, deed: Deed) -> str:
         """What holds the antenna back from this; empty: nothing does."""
         status = self._box.status()
-        # What is latched later was latched by somebody else, or by a key.
+        # A later stop came from another person, or from a key.
         resumed = status.at_s <= self._resumed_s + SHOWN_S
         held = holds(replace(status, latched="") if resumed else status, self._source)
         state = hindrance(held, deed)

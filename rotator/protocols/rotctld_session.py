@@ -194,7 +194,7 @@ class RotctldSession:
         refusals = [refusal for order in orders if (refusal := self._box.order(order))]
         if refusals:
             return Answer(REJECTED if refusals[0].forbidden else INVALID_PARAMETER)
-        # A program that is told of success would believe that the antenna follows.
+        # After `RPRT 0` a program would believe that the antenna follows.
         return Answer(REJECTED) if all(only_faulted(order, status) for order in orders) else Answer()
 
     def _position(self) -> Answer:

@@ -51,7 +51,7 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("at_target", "boolean", "it stands, near enough to its target",
           lambda axis: axis.at_target),
     Field("moving", "boolean", "it turns, or still coasts", lambda axis: axis.moving),
-    Field("by_itself_dps", "number", "its speed while nobody drives it; positive: clockwise, up",
+    Field("by_itself_dps", "number", "its speed while its motor is off; positive: clockwise, up",
           lambda axis: round(axis.by_itself_dps, 1)),
     Field("drive", "number", "1: driven clockwise or up; -1: the other way; 0: off", lambda axis: int(axis.drive)),
     Field("homing", "boolean", "it looks for its end stop", lambda axis: axis.homing),

@@ -1,7 +1,7 @@
 """A timed table of directions as text: CSV with the columns `t,az,el`, in seconds and degrees, rows at any interval.
 
 Knows the form, what people write instead, and the ways to write a moment. A row that may mean something else is
-refused, never guessed, and its line is told. Knows neither files nor the rotor.
+refused, never guessed; the error names its line. Knows neither files nor the rotor.
 """
 
 from __future__ import annotations

@@ -59,8 +59,8 @@ class ControlLoop:
 
         `page_events`: the same for the page.
 
-        `keep_latch` is told of each latched stop and of each release, `keep_tries` of what motors are tried for in
-        vain, in the control thread. They must not wait.
+        `keep_latch` gets each latched stop and each release, `keep_tries` the runs in which a motor did not turn. Both
+        are called in the control thread and must not wait.
         """
         self._controller = controller
         self._after_good_step = after_good_step

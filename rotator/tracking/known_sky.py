@@ -73,7 +73,7 @@ class KnownSky:
     def find(self, words: str) -> Wanted | Aim:
         """A target that moves, or a fixed direction. Raises Unknown, NotThere."""
         site = self.site
-        # A name that means nothing anywhere is told first, then that the place is not known.
+        # An unknown name is the first error; the second, that the station's place is not known.
         target = find(words, site or _ANYWHERE, self._catalogue)
         match target:
             case Fixed(_, where) if site is not None or fixed(words) is not None:

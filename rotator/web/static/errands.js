@@ -24,7 +24,7 @@ function Homes({ now, axis, say }) {
     onYes=${() => act(post("home", { axis }), say)} />`;
 }
 
-/** An axis that cannot know its angle, or counts, is told it by a person who reads it off the mast. */
+/** An axis without a sensor, or one that counts: a person reads its angle off the mast and enters it. */
 function Confirms({ now, axis, say }) {
   const [angle, setAngle] = useState("");
   if (!now.status[axis].confirmable) return null;

@@ -17,7 +17,7 @@ function HeldButton({ live, turn, name, arrow, say }) {
     event.currentTarget.focus();
     say("");
     setHeld(true);
-    // Whatever ends it puts out the light: the finger, another button, STOP, the box.
+    // Each end of the jog puts out the light: the finger, another button, STOP, the box.
     live.hold(turn, (reason) => (setHeld(false), say(reason)));
   };
   const leave = () => live.letGo();

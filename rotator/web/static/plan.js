@@ -70,7 +70,7 @@ export function Followed({ hello, paired, changed, say }) {
   return html`<div class="followed"><p>${paired ? "Drag what matters more to the top." : "What stands further up counts more."} Where two are up at once, a minute at priority 2 is worth two at priority 1.</p>
     <ol ref=${list}>${followed.map((one, index) => (paired ? html`<${Target} key=${one.name} one=${one} place=${index} count=${followed.length} onMove=${place} onDrag=${begin} dragged=${drag === one.name} />`
       : html`<li key=${one.name}><b>${one.target}</b><span>${one.fault || `priority ${+one.priority.toPrecision(3)}`}</span></li>`))}</ol>
-    ${other && html`<p>This order is kept beside the file, which stays as it is. What somebody writes into the file later counts again. ${paired && html`<button type="button" onClick=${() => send(null)}>The file's order again</button>`}</p>`}
+    ${other && html`<p>This order is kept beside the file, which stays as it is. A later change of the file counts again. ${paired && html`<button type="button" onClick=${() => send(null)}>The file's order again</button>`}</p>`}
     ${paired && html`<p>Another satellite: <a href="#setup">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
     <p class="only-read" role="status">${told}</p></div>`;
 }

@@ -26,7 +26,7 @@ export async function back(run) {
 }
 
 /** The settings of the box and the tables of its file. `change`: has them written, and the box started anew. `hello`: of
-    the connection, another one after each start of the box: somebody else may have written the file. */
+    the connection, another one after each start of the box: the file may have been changed elsewhere. */
 export function useSettings(say, hello) {
   const [file, setFile] = useState(null), [tables, setTables] = useState(null), [busy, setBusy] = useState("");
   const load = () => act(whole("settings").then(setFile), say);
