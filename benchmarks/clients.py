@@ -17,7 +17,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import parse
 
 CLIENTS = 100

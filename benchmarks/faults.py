@@ -16,10 +16,10 @@ from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.orders import Jog, Order, Stop
+from rotator.exchange.orders import Jog, Order, Stop
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.status import Status
 
 MASTER = "[relays]\nmaster = 16\n"
 SLOW = "[azimuth]\nspeed_dps = 0.5\n[elevation]\nspeed_dps = 0.5\n[sim.azimuth]\nspeed_dps = 0.5\n"

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from benchmarks.load import LOAD_S, bare_mib, load, load_without_chips, reference_load
 from benchmarks.stops import Stops, free_port, opened
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import parse
 
 ROUNDS = 200

@@ -15,14 +15,14 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 
+from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Source
 from rotator.orbits import tle
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight
-from rotator.orders import Aim
-from rotator.sources import Source
 from tests.orbits import skyfield_oracle
 from tests.orbits.streams import Path, great_circle
 

@@ -14,14 +14,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from benchmarks.recognition import SATELLITES, catalogue
+from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Source
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.passes import passes
 from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orders import Aim
-from rotator.sources import Source
 from tests.orbits.streams import whole
 
 PASSES, USED = 200, 8

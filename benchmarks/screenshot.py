@@ -14,7 +14,7 @@ from pathlib import Path
 
 from benchmarks.screen_svg import screen_svg
 from rotator import __version__
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.views import terminal
 from rotator.views.sky_plot import Trail

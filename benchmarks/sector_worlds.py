@@ -27,10 +27,10 @@ from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.route import Speeds
 from rotator.control.sky.sectors import box_at
-from rotator.flight_order import Fly
-from rotator.orders import Aim, Order
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import Aim, Order
+from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 LINK = Source("gs232b", 1)
 SLOWEST, FASTEST = 0.3, 1.5

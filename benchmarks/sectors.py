@@ -20,8 +20,8 @@ from multiprocessing import get_context
 
 from benchmarks.sector_worlds import LINK, Outcome, World
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Mode, Park, Release, SetMode, Stop
-from rotator.sources import Source
+from rotator.exchange.orders import Aim, Jog, Mode, Park, Release, SetMode, Stop
+from rotator.exchange.sources import Source
 
 PROFILES = ("g5500", "u100", "isel", "servos", "orbit360")
 OTHER, PERSON, PANEL, TRACK = Source("rotctld", 1), Source("console"), Source("panel"), Source("track")

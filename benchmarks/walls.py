@@ -21,8 +21,8 @@ from benchmarks.sectors import PERSON, PROFILES, TRACK
 from hw.ports import Axis, Direction
 from rotator.config.model import Config
 from rotator.control.sky.mount import Mount
-from rotator.orders import Aim, Jog, Order, Park, Release
-from rotator.sources import Source
+from rotator.exchange.orders import Aim, Jog, Order, Park, Release
+from rotator.exchange.sources import Source
 
 ORDERS, SEED = 10_000, 1
 EACH = 40

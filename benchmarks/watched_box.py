@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from benchmarks.stops import Edge
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import load
 from rotator.runtime.signals import SignalThread
 

@@ -9,11 +9,11 @@ from firmware_sim.clock import SimClock
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.load import parse
+from rotator.exchange.sources import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 TYPED: tuple[tuple[str, float], ...] = (("c2", 1), ("w235 025", 4), ("c2", 1), ("hello", 1), ("s", 2), ("c2", 1))
 """Each line, and how many seconds pass after it."""

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.earth import Site
-from rotator.orders import Aim
 from rotator.tracking.next_flight import NextFlight, Now, Wanted
 from rotator.tracking.next_followed import Upcoming, WantedOften
 from rotator.tracking.planned import SPARE_S

@@ -33,6 +33,7 @@ from rotator.cli.rehearse import simulated
 from rotator.config.links import Link
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
+from rotator.exchange.sources import Source
 from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.panel_words import parse_hand
@@ -41,7 +42,6 @@ from rotator.runtime.autosave import CALIBRATIONS_EVERY_S, Autosave
 from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 from rotator.store import counts, knobs, latch
 from rotator.store.latch import LatchFile
 

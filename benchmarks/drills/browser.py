@@ -13,12 +13,12 @@ from typing import cast
 from benchmarks.drills.boxes import BOTH, Mast
 from benchmarks.drills.script import PAGE, Arg, Event
 from hw.ports import Direction
-from rotator.orders import Jog
+from rotator.exchange.orders import Jog
+from rotator.exchange.sources import Source
 from rotator.protocols.console import PersonCommand, parse
 from rotator.protocols.operating import Operating
 from rotator.protocols.panel_words import TURNS
 from rotator.protocols.session import Box, Tracking
-from rotator.sources import Source
 from rotator.web.holding import LEASE_S
 
 LOOKS_ON = 0.35

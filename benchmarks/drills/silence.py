@@ -15,7 +15,7 @@ from benchmarks.drills.judges import LOOK_S, SILENCE, AxisCase, Violation
 from benchmarks.drills.told import Rule, Shows, plain, rule
 from benchmarks.drills.world import AxisTruth
 from hw.ports import Axis
-from rotator.status import Status
+from rotator.exchange.status import Status
 
 IGNORED = "orders from"
 CURRENT = (Shows.DRIVEN, Shows.PRESSED, Shows.TURNED)

@@ -17,10 +17,10 @@ from rotator.assembly.tracking import TrackedBox
 from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.mount import Mount
-from rotator.flight_order import Fly, Stream
-from rotator.orders import Order
+from rotator.exchange.flight_order import Fly, Stream
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 from rotator.tracking.follower import Follower
 from rotator.tracking.next_flight import NextFlight, Now, Wanted
 from rotator.tracking.next_followed import Upcoming, WantedOften

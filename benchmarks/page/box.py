@@ -18,11 +18,11 @@ from pathlib import Path
 
 from benchmarks.fuzz_box import free_port
 from benchmarks.sky_now import as_json, satellite, sets_in
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import load
+from rotator.exchange.orders import Aim, Release
+from rotator.exchange.sources import Source
 from rotator.orbits.earth import Site
-from rotator.orders import Aim, Release
-from rotator.sources import Source
 
 ROTOR = """
 [state]

@@ -16,9 +16,9 @@ from pathlib import Path
 from benchmarks.soak.crowd import FLIGHTS
 from firmware_sim.clock import SimClock
 from rotator.config.load import parse
-from rotator.orders import Stop
+from rotator.exchange.orders import Stop
+from rotator.exchange.sources import Source
 from rotator.rehearsal.plants import BoxPlant
-from rotator.sources import Source
 
 HOUR_S = 3600.0
 PAUSE_S = 60.0

@@ -14,7 +14,7 @@ from rotator.config.links import address
 from rotator.config.model import Config
 from rotator.links.allowed import PRIVATE, Allowed
 from rotator.orbits.elements import Elements
-from rotator.own_process import OwnProcess
+from rotator.runtime.own_process import OwnProcess
 from rotator.store import fetches
 from rotator.store.fetches import FetchesFile
 

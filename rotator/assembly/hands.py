@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from firmware_sim.panel import SimPanel
 from firmware_sim.rotors.rotor import SimRotor
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
 from rotator.panel.inputs import POSITIONS
 from rotator.protocols.console_session import Hands
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode

@@ -17,6 +17,7 @@ from typing import Protocol
 
 from rotator.config.links import FOLLOW, Link, ProtocolName, address
 from rotator.control.sky.mount import Mount
+from rotator.exchange.sources import Source
 from rotator.links.allowed import Allowed
 from rotator.links.asking import AskingLink
 from rotator.links.file import FileLink
@@ -53,7 +54,6 @@ from rotator.protocols.wsjtx import WsjtxSession
 from rotator.runtime.client import Client, Rights
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 log = logging.getLogger(__name__)
 

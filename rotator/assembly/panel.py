@@ -15,12 +15,12 @@ from hw.sensors.pot import PotSensor, Reference
 from hw.sensors.switches import LimitSwitches
 from rotator.assembly.board import Board
 from rotator.config.model import Config
-from rotator.orders import Order
+from rotator.exchange.orders import Order
+from rotator.exchange.status import Status
 from rotator.panel.inputs import KnobWiring
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.common import BlockedDirections, no_switches
-from rotator.status import Status
 from rotator.store.knobs import KnobsFile
 
 LAMP_TEST_S = 1.0

@@ -23,9 +23,9 @@ from rotator.control.sky.flight_plan import PlannedMotor
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.control.sky.pointing_model import PointingModel
-from rotator.faults import Missing
-from rotator.orders import Mode
-from rotator.status import ALL_OPEN, NO_TRIES, Latch, LearntMotor, Tries, Trusts
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Mode
+from rotator.exchange.status import ALL_OPEN, NO_TRIES, Latch, LearntMotor, Tries, Trusts
 from rotator.store.learnt import Motors
 
 

@@ -25,7 +25,7 @@ from rotator.assembly.panel import panel_parts, panel_thread
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulation import SimulatedStation
 from rotator.config.model import Config
-from rotator.orders import Order
+from rotator.exchange.orders import Order
 from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.port import AddAlarm, Rotor
 from rotator.runtime.loop import ControlLoop

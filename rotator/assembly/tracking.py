@@ -20,13 +20,13 @@ from rotator.control.admission import refusal
 from rotator.control.sky.flight_plan import Antenna, PlannedMotor
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import Place
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import Aim, Order
+from rotator.exchange.sources import Source
+from rotator.exchange.status import AxisStatus, Status
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, beyond_beam
-from rotator.orders import Aim, Order
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.status import AxisStatus, Status
 from rotator.store.priorities import FILE_NAME, Priorities
 from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower

@@ -22,10 +22,10 @@ from rotator.calibrating.compass import READ_EVERY_S, CompassReader
 from rotator.calibrating.compass_guide import SAMPLES
 from rotator.calibrating.facts import NorthFacts, north_facts
 from rotator.config.model import Config
-from rotator.orders import Confirm
+from rotator.exchange.orders import Confirm
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.status import Status
 from rotator.store.compass import CompassFile
 
 log = logging.getLogger(__name__)

@@ -18,9 +18,9 @@ from rotator.calibrating.phrases import Phrases, phrases_for
 from rotator.calibrating.reading_watch import AxisMoved, ReadingWatch
 from rotator.calibrating.readings import READINGS, SHARES, Measured, NotTrusted, ReadingUnit, measure
 from rotator.calibrating.results import AxisCalibrated
-from rotator.faults import Notice
-from rotator.orders import Jog, Stop
-from rotator.status import AxisStatus, Status
+from rotator.exchange.faults import Notice
+from rotator.exchange.orders import Jog, Stop
+from rotator.exchange.status import AxisStatus, Status
 
 ACKNOWLEDGED_S = 0.3
 """A fault that remains this long after it was acknowledged is still present."""

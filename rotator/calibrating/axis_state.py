@@ -5,8 +5,8 @@ The only place in this package that compares kinds of faults.
 
 from __future__ import annotations
 
-from rotator.faults import FaultKind, Missing
-from rotator.status import AxisStatus
+from rotator.exchange.faults import FaultKind, Missing
+from rotator.exchange.status import AxisStatus
 
 
 def position_unknown(axis: AxisStatus) -> bool:

@@ -16,8 +16,8 @@ from rotator.calibrating.entries import Entry, Press, StopNow
 from rotator.calibrating.facts import NorthFacts
 from rotator.calibrating.guide import CONFIRM_S, ORDER_TAKEN_S, Abandoned, Guide, Steps
 from rotator.control.sky.angles import turn_deg
-from rotator.orders import Aim, Confirm, Jog, Stop
-from rotator.status import AxisStatus, Status
+from rotator.exchange.orders import Aim, Confirm, Jog, Stop
+from rotator.exchange.status import AxisStatus, Status
 
 PLACE_EVERY_DEG = 45.0
 LEAST_PLACES = 3

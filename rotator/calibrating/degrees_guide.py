@@ -18,7 +18,7 @@ from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import NotTrusted
 from rotator.calibrating.results import AxisCalibrated
 from rotator.calibrating.table_draft import LEAST_SPAN_DEG
-from rotator.orders import Confirm, Home, Stop
+from rotator.exchange.orders import Confirm, Home, Stop
 
 
 class DegreesGuide(AxisGuide):

@@ -25,9 +25,9 @@ from rotator.calibrating.entries import (
     Unknown,
     Yes,
 )
-from rotator.orders import Order, Stop
-from rotator.spoken import sender
-from rotator.status import AxisStatus, Status
+from rotator.exchange.orders import Order, Stop
+from rotator.exchange.spoken import sender
+from rotator.exchange.status import AxisStatus, Status
 
 Steps = Generator[None, None, None]
 """Every `yield` waits for the next status or entry."""

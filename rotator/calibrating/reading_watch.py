@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from hw.ports import Axis, Direction
 from rotator.calibrating.entries import Press
 from rotator.calibrating.readings import SHARES, Movement, ReadingUnit, movement
-from rotator.status import AxisStatus, Status
+from rotator.exchange.status import AxisStatus, Status
 
 REST_READINGS = 10
 """Readings kept from before a movement, to know where it began."""

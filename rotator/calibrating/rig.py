@@ -29,8 +29,8 @@ from rotator.calibrating.results import AngleConfirmed, AxisCalibrated, NorthFou
 from rotator.calibrating.table_guide import TableGuide
 from rotator.config.model import Config
 from rotator.control.controller import Controller
+from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 from rotator.store.compass import CompassFile
 
 CALIBRATE = Source("calibrate")

@@ -29,7 +29,7 @@ from rotator.calibrating.sky_table import miss_text
 from rotator.calibrating.strength import Strength
 from rotator.control.sky.beam_fit import Heard, Middle, NoPeak, middle
 from rotator.control.sky.model_fit import SkyPoint
-from rotator.status import Status
+from rotator.exchange.status import Status
 
 STANDS_S = 0.5
 """So long the antenna stands before its receiver is listened to: its automatic gain settles."""

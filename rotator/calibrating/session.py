@@ -28,9 +28,9 @@ from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.config.load import ConfigError
 from rotator.config.model import Config
 from rotator.config.places import memory_folder
+from rotator.exchange.status import Latch
 from rotator.orbits.sight import Target
 from rotator.runtime.engine import Engine
-from rotator.status import Latch
 
 POLL_S = 0.02
 NORTH, SKY = "north", "sky"

@@ -17,8 +17,8 @@ from rotator.calibrating.sky_facts import SkyFacts
 from rotator.calibrating.sky_table import Residuals, found_text, miss_text, pictures, table, terms_text
 from rotator.control.sky.model_fit import NoFit, SkyPoint, fitted
 from rotator.control.sky.pointing_model import PERFECT
-from rotator.orders import Aim, Jog, Stop
-from rotator.status import AxisStatus, Status
+from rotator.exchange.orders import Aim, Jog, Stop
+from rotator.exchange.status import AxisStatus, Status
 
 KEYS = "r l u d steer a little, R L U D further; s stops; Enter takes a point, b takes it back; f ends; q leaves."
 ACCEPTS = "y turns to the target; r l u d steer; Enter: it is centred; b takes the last point back; f: no more."

@@ -24,8 +24,8 @@ from rotator.calibrating.sky_table import miss_text
 from rotator.config.model import Config
 from rotator.control.sky.model_fit import SkyPoint
 from rotator.control.sky.pointing_model import PERFECT
+from rotator.exchange.status import AxisStatus, Status
 from rotator.orbits.sight import Target
-from rotator.status import AxisStatus, Status
 
 SIMULATED = "sim"
 """In place of a receiver's address: one behind the simulated antenna."""

@@ -17,8 +17,9 @@ from rotator.assembly.settings import build_mount
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path
+from rotator.exchange.orders import Order, SetMode, Stop
+from rotator.exchange.sources import CONSOLE, PANEL, Source
 from rotator.links.console import ConsoleSocket
-from rotator.orders import Order, SetMode, Stop
 from rotator.protocols.console import Ask, parse
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.lines import LineReader
@@ -26,7 +27,6 @@ from rotator.protocols.panel_words import StopButton, TurnMode
 from rotator.protocols.session import Session
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import CONSOLE, PANEL, Source
 
 REFUSED = b"error: a calibration runs here: until it ends only `stop`, `status` and `help` are taken\n"
 UNREACHED = "`rotator stop` does not reach this calibration: another box has its socket, or none can be made."

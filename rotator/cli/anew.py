@@ -11,8 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from hw.ports import HardwareError
-from rotator import backup
-from rotator.app import App
+from rotator.backup import restore
+from rotator.box.app import App
 from rotator.cli.failed import CommandFailed
 from rotator.config import toml_text
 from rotator.config.load import ConfigError
@@ -38,7 +38,7 @@ def text_of(path: Path | None) -> str | None:
 def restored(path: Path | None) -> None:
     """Put in place the backup that a person wants back, if one waits, before anything is loaded."""
     if path is not None:
-        backup.complete(path, time.time())
+        restore.complete(path, time.time())
 
 
 def start_anew(

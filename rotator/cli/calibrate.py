@@ -23,10 +23,10 @@ from rich.console import Console, Group, RenderableType
 from rich.text import Text
 
 from hw.ports import Axis
-from rotator.app import open_station
 from rotator.assembly.kept_files import build_latch_file
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.station import Station
+from rotator.box.app import open_station
 from rotator.calibrating.receiver import BadAddress
 from rotator.calibrating.rig import Rig
 from rotator.calibrating.session import SKY, CalibrationSession
@@ -43,10 +43,10 @@ from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import memory_folder, monitor_path
 from rotator.config.station import NO_PLACE
+from rotator.exchange.spoken import held_by, spoken
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, Target
 from rotator.orbits.targets import find
-from rotator.spoken import held_by, spoken
 from rotator.store.whole import write_whole
 from rotator.views.residual_svg import residual_svg
 

@@ -21,7 +21,7 @@ from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
-from rotator.spoken import sender
+from rotator.exchange.spoken import sender
 
 LOOK_S = 0.2
 """The time between two looks at the antenna, in seconds."""

@@ -25,12 +25,12 @@ from rotator.cli.failed import CommandFailed
 from rotator.cli.lines import say
 from rotator.cli.reach import monitors, reach
 from rotator.cli.setup import SETTINGS, propose
+from rotator.exchange.sources import Source
 from rotator.monitor.transcript import LinkNote, Peer, Piece, Way, parse
 from rotator.setup import network, tree
 from rotator.setup.machine import Machine, this_machine
 from rotator.setup.plan import SetupError
 from rotator.setup.questions import network as network_of
-from rotator.sources import Source
 
 PATIENCE_S = 300.0
 START_S = 20.0

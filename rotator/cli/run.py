@@ -1,7 +1,7 @@
 """`rotator run`: the box in the foreground, with a live picture in a terminal, or plain lines elsewhere.
 
 Starts the faults of --fault, and the box anew where the page wants that. `rotator.cli.run_keys` knows the keys,
-`rotator.views` draws the picture; `rotator.app` is the box.
+`rotator.views` draws the picture; `rotator.box` is the box.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from typing import TextIO, cast
 from rich.console import RenderableType
 
 from rotator import __version__
-from rotator.app import App
+from rotator.box.app import App
 from rotator.cli.anew import restored, start_anew, text_of
 from rotator.cli.announced import announced, boxes
 from rotator.cli.failed import CommandFailed

@@ -6,10 +6,10 @@ it goes to a console session, which answers as it answers `rotator tell`.
 
 from __future__ import annotations
 
-from rotator.orders import Stop
+from rotator.exchange.orders import Stop
+from rotator.exchange.status import Status
 from rotator.protocols.console_session import ERROR, ConsoleSession
 from rotator.protocols.session import Box
-from rotator.status import Status
 
 WORDS = ("park", "resume")
 """Words that need Enter."""

@@ -21,7 +21,7 @@ from rich.console import Console, RenderableType
 from rich.live import Live
 
 from rotator.cli.output import Output
-from rotator.spoken import spoken
+from rotator.exchange.spoken import spoken
 from rotator.views.plain_characters import ascii_only
 
 PICTURE_HZ = 5

@@ -14,7 +14,7 @@ import click
 
 from rotator.cli.box import RunningBox
 from rotator.cli.failed import CommandFailed
-from rotator.status import SHOWN_ERROR_DEG, time_left
+from rotator.exchange.status import SHOWN_ERROR_DEG, time_left
 
 LOOK_S = 0.2
 MOST_BYTES = 1_000_000

@@ -12,7 +12,7 @@ from typing import Final, Literal
 from pydantic import Field, field_validator, model_validator
 
 from rotator.config.table import Table
-from rotator.sources import MQTT, PERSONS
+from rotator.exchange.sources import MQTT, PERSONS
 
 ProtocolName = Literal[
     "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow",

@@ -9,10 +9,10 @@ from __future__ import annotations
 from hw.ports import AngleSource, Axis
 from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.flight_order import Fly
-from rotator.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, RelaysChecked
-from rotator.sources import Refusal
-from rotator.status import Status
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, RelaysChecked
+from rotator.exchange.sources import Refusal
+from rotator.exchange.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
 """The angles that a program may send, as in Hamlib. The mount knows which of them the rotor can reach."""

@@ -21,11 +21,11 @@ from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.route import Speeds
-from rotator.faults import Notice
-from rotator.flight_order import Fly
-from rotator.orders import BOTH, Aim
-from rotator.sources import Source
-from rotator.status import Flown
+from rotator.exchange.faults import Notice
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import BOTH, Aim
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Flown
 
 
 class Aiming:

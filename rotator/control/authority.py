@@ -10,9 +10,9 @@ import math
 from rotator.control.rights import Deed, State, hindrance, standing_holds
 from rotator.control.senders import PAUSE_S, Senders
 from rotator.control.sky.angles import Coordinates
-from rotator.orders import Mode
-from rotator.sources import CONSOLE, PAGE, PANEL, Source
-from rotator.status import Latch
+from rotator.exchange.orders import Mode
+from rotator.exchange.sources import CONSOLE, PAGE, PANEL, Source
+from rotator.exchange.status import Latch
 
 AGREE_DEG = 4.0
 LET_GO_S = 0.5

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rotator.control.sky.mount import Mount
-from rotator.status import AxisStatus
+from rotator.exchange.status import AxisStatus
 
 
 def with_boom(mount: Mount, azimuth: AxisStatus, elevation: AxisStatus) -> tuple[AxisStatus, AxisStatus]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
-from rotator.orders import LetGo
+from rotator.exchange.orders import LetGo
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,9 +25,9 @@ from rotator.control.rights import deed_of
 from rotator.control.seen_turning import SeenTurning
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
-from rotator.faults import Notice
-from rotator.flight_order import Fly, Stream
-from rotator.orders import (
+from rotator.exchange.faults import Notice
+from rotator.exchange.flight_order import Fly, Stream
+from rotator.exchange.orders import (
     BOTH,
     Calibrate,
     ClearTimed,
@@ -48,8 +48,8 @@ from rotator.orders import (
     Stop,
     Take,
 )
-from rotator.sources import PAGE, PANEL, TRACKER, Source
-from rotator.status import AxisStatus, Status
+from rotator.exchange.sources import PAGE, PANEL, TRACKER, Source
+from rotator.exchange.status import AxisStatus, Status
 
 
 class Controller:

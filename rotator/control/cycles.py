@@ -6,7 +6,7 @@ Knows when the cycles began, and their period. Knows no reading and no motor.
 from __future__ import annotations
 
 from hw.ports import Axis
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 CYCLE_LATE_S = 0.5
 """A cycle that is this late while a motor runs is a fault: the guard has opened its relay meanwhile."""

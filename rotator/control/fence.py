@@ -15,7 +15,7 @@ from rotator.control.axis.reach import START_S
 from rotator.control.commands import HOLD, Command, Feed, Hold, Run, Steer, Unfed
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import UNKNOWN, Box, kept, may_sweep
-from rotator.faults import Notice
+from rotator.exchange.faults import Notice
 
 GOING_ON_PERIODS = 1.5
 """A running motor may run on for at least this many cycles: the next command comes after one."""

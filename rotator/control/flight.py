@@ -14,9 +14,9 @@ from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import Way
-from rotator.flight_order import PLAN_STEP_S, AxisPlan, Fly
-from rotator.orders import Aim
-from rotator.status import Flown
+from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly
+from rotator.exchange.orders import Aim
+from rotator.exchange.status import Flown
 
 STEP_TOLERANCE_DEG = 0.3
 """How near to the place of a step the axis comes to rest. A step is longer."""

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG, great_circle_deg
 from rotator.control.sky.known_path import KnownPath
-from rotator.flight_order import Fly
-from rotator.orders import Aim
-from rotator.program_clock import ProgramClock
-from rotator.sources import Source
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import Aim
+from rotator.exchange.program_clock import ProgramClock
+from rotator.exchange.sources import Source
 
 CLOCK_STEP_S = 0.25
 QUIET_S = 20.0

@@ -18,8 +18,8 @@ from rotator.control.sky.mount import Mount
 from rotator.control.sky.plan import Path
 from rotator.control.sky.route import Speeds
 from rotator.control.sky.sectors import Box, Place
-from rotator.faults import Notice
-from rotator.orders import Aim
+from rotator.exchange.faults import Notice
+from rotator.exchange.orders import Aim
 
 PLACE_TOLERANCE_DEG = 0.8 * BESIDE_DEG
 """How near to a place on its way an axis has to come."""

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.refused import Refused
-from rotator.sources import Source
+from rotator.exchange.sources import Source
 
 
 class HomingQueue:

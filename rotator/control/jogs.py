@@ -15,8 +15,8 @@ from collections.abc import Mapping
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from rotator.control.axis.port import ControlledAxis
-from rotator.orders import Jog
-from rotator.sources import PAGE, Source
+from rotator.exchange.orders import Jog
+from rotator.exchange.sources import PAGE, Source
 
 REST_SHARE = 0.4
 """Rest after a turn, as a share of the turn's time."""

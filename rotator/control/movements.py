@@ -18,11 +18,11 @@ from rotator.control.refused import Refused
 from rotator.control.settings import Settings
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
-from rotator.faults import Notice
-from rotator.flight_order import Fly
-from rotator.orders import BOTH, Aim, Home, Jog, LoadTimed, Order, Park, RunTimed
-from rotator.sources import Source
-from rotator.status import Flown
+from rotator.exchange.faults import Notice
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import BOTH, Aim, Home, Jog, LoadTimed, Order, Park, RunTimed
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Flown
 
 
 class Movements:

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from enum import Enum
 
-from rotator.flight_order import Fly
-from rotator.orders import (
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import (
     Aim,
     Calibrate,
     Confirm,
@@ -27,9 +27,9 @@ from rotator.orders import (
     Stop,
     Take,
 )
-from rotator.sources import CONSOLE, PANEL, Source
-from rotator.spoken import held_by
-from rotator.status import Status
+from rotator.exchange.sources import CONSOLE, PANEL, Source
+from rotator.exchange.spoken import held_by
+from rotator.exchange.status import Status
 
 
 class State(Enum):

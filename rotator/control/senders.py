@@ -10,8 +10,8 @@ from collections import deque
 from dataclasses import dataclass, replace
 
 from rotator.control.sky.angles import Coordinates, great_circle_deg, turn_deg
-from rotator.orders import Aim, Order
-from rotator.sources import Source
+from rotator.exchange.orders import Aim, Order
+from rotator.exchange.sources import Source
 
 PAUSE_S = 10.0
 """Orders further apart than this do not belong together. A silenced stream has an effect again after such a pause."""

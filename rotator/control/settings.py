@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from rotator.control.axis.settings import AxisSettings
 from rotator.control.sky.mount import Mount
-from rotator.orders import Mode
-from rotator.status import Latch
+from rotator.exchange.orders import Mode
+from rotator.exchange.status import Latch
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from rotator.config.forbidden import seen_again
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, warn, wrong
-from rotator.faults import Missing
+from rotator.exchange.faults import Missing
 
 KEYS = {
     Missing.CALIBRATION: ("calibration",),

@@ -11,7 +11,7 @@ from typing import Any
 from hw.ports import Axis
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
-from rotator.spoken import held, sender, spoken
+from rotator.exchange.spoken import held, sender, spoken
 
 
 def running_box(machine: Machine) -> Iterator[Finding]:

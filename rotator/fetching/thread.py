@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from rotator.fetching.fetcher import Fetcher
 from rotator.fetching.manners import Moment
-from rotator.own_process import OwnProcess
+from rotator.runtime.own_process import OwnProcess
 
 LOOK_S = 5.0
 

@@ -10,11 +10,11 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 
 from rotator import __version__
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.links.wire import Wire
 from rotator.monitor.transcript import HEADS, At, LinkNote, Peer, Way, encode_at, encode_link, encode_peer, encode_piece
 from rotator.protocols.session import Beating, Inquiry, Session
-from rotator.sources import Source
-from rotator.status import Status
 
 MOVED_DEG = 1.0
 MOVED_EVERY_S = 1.0

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from enum import Enum
 
-from rotator.sources import Source
+from rotator.exchange.sources import Source
 
 
 class Way(Enum):

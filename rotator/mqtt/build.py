@@ -8,6 +8,7 @@ from __future__ import annotations
 from rotator.config.links import address
 from rotator.config.model import Config
 from rotator.control.sky.mount import Mount
+from rotator.exchange.sources import MQTT, Source
 from rotator.mqtt.desk import Desk
 from rotator.mqtt.thread import Broker, MqttThread
 from rotator.mqtt.topics import Topics
@@ -16,7 +17,6 @@ from rotator.protocols.session import Tracking
 from rotator.protocols.status_object import as_object
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import MQTT, Source
 
 
 def build_mqtt(config: Config, loop: ControlLoop, mount: Mount, tracking: Tracking | None) -> MqttThread | None:

@@ -13,7 +13,10 @@ from collections import deque
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from rotator.flight_order import Fly, Stream
+from rotator.exchange.flight_order import Fly, Stream
+from rotator.exchange.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Speed
+from rotator.exchange.program_clock import ProgramClock
+from rotator.exchange.sources import Source
 from rotator.orbits.chance import (
     LINE_CHANCE,
     MOST_LIKELY,
@@ -34,9 +37,6 @@ from rotator.orbits.stream_fit import (
     rounding_deg,
     telling,
 )
-from rotator.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Speed
-from rotator.program_clock import ProgramClock
-from rotator.sources import Source
 
 ORDERS = 8
 FEW_ORDERS, FEW_S = 3, 8.0

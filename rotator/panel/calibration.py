@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from enum import Enum
 
 from hw.ports import Axis
-from rotator.orders import Home
+from rotator.exchange.orders import Home
 
 LEAST_FULL_SCALE = 0.25
 """A knob that reads less than this share of its supply has not been turned to its maximum."""

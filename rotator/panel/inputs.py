@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from hw.ports import Axis, Direction
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
 from rotator.panel.ladder import CENTRE, Throw, thrown
 
 CLOSED_S = 0.05

@@ -15,10 +15,10 @@ from dataclasses import dataclass, field
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
-from rotator.orders import Aim, Jog, Mode, Nudge, Order, Release, Remark, SetMode, Stop
+from rotator.exchange.orders import Aim, Jog, Mode, Nudge, Order, Release, Remark, SetMode, Stop
+from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.calibration import BEGINNING, PanelCalibration, Stage
 from rotator.panel.inputs import Contact, JogSwitches, Knob, KnobWiring, ModeSwitch, StopButton
-from rotator.status import AxisStatus, Status
 
 LEAST_INDEX, MOST_INDEX = -7, 8
 """The range of the index by which the jog switches shift an order."""

@@ -16,9 +16,9 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from hw.ports import AngleSensor, Axis, HardwareError, SwitchInputs
-from rotator.orders import Order, Stop
+from rotator.exchange.orders import Order, Stop
+from rotator.exchange.status import Status
 from rotator.panel.panel import Panel, PanelInputs, PanelOutput
-from rotator.status import Status
 
 log = logging.getLogger(__name__)
 

@@ -9,7 +9,7 @@ import re
 
 from hw.ports import Axis
 from rotator.control.admission import SENT_DEG
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 
 _DEGREES = re.compile(r"[+-]?[0-9]{1,3}(?:[.,][0-9]{0,9})?")
 

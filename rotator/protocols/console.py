@@ -12,7 +12,7 @@ from enum import Enum
 
 from hw.ports import Axis, Direction
 from rotator.control.admission import SENT_DEG
-from rotator.orders import (
+from rotator.exchange.orders import (
     Confirm,
     GiveBack,
     Home,

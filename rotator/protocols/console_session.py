@@ -11,7 +11,9 @@ import re
 from collections.abc import Callable
 
 from hw.ports import Axis, Direction
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
+from rotator.exchange.spoken import held, sender, spoken
+from rotator.exchange.status import Flown, Status, time_left
 from rotator.protocols.console import TURN_WORDS, VERBS, Ask, Pair, TableLine, Track, TrackTable, parse
 from rotator.protocols.lines import LineReader
 from rotator.protocols.operating import Operating
@@ -19,8 +21,6 @@ from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, 
 from rotator.protocols.session import Box, Pairing, Tracking
 from rotator.protocols.status_object import as_object
 from rotator.protocols.table_text import TableError, read_table
-from rotator.spoken import held, sender, spoken
-from rotator.status import Flown, Status, time_left
 
 MAX_LINE = 200
 MOST_TABLE_LINES = 20_000

@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.orders import Stop
+from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim
 from rotator.protocols.session import Box
 

@@ -10,8 +10,8 @@ from itertools import groupby
 
 from hw.ports import Axis, Direction
 from rotator import __version__
-from rotator.faults import EasycommError
-from rotator.orders import Jog, Order, Park, Stop
+from rotator.exchange.faults import EasycommError
+from rotator.exchange.orders import Jog, Order, Park, Stop
 from rotator.protocols import easycomm
 from rotator.protocols.aiming import aim
 from rotator.protocols.easycomm import Level, Word

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 from rotator.protocols.session import Box
 
 ARDUINO_READ_TIMEOUT_S = 1.0

@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Calibrate, ClearTimed, Jog, LoadTimed, Order, RunTimed, Speed, Stop
+from rotator.exchange.orders import Aim, Calibrate, ClearTimed, Jog, LoadTimed, Order, RunTimed, Speed, Stop
+from rotator.exchange.status import AxisStatus
 from rotator.protocols import gs232
 from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand, OutOfRange
 from rotator.protocols.lines import LineReader
 from rotator.protocols.session import Box
-from rotator.status import AxisStatus
 
 _PLAIN_ORDERS: dict[str, Order] = {
     "R": Jog(Axis.AZIMUTH, Direction.PLUS),

@@ -11,13 +11,13 @@ from datetime import UTC, datetime
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.joining import direction
+from rotator.exchange.orders import Aim, Jog, Order, Park, Stop
+from rotator.exchange.sources import Refusal
 from rotator.orbits.celestial import Equinox, Sky, Star
-from rotator.orders import Aim, Jog, Order, Park, Stop
 from rotator.protocols import lx200
 from rotator.protocols.lx200 import Command, CommandReader, Kind
 from rotator.protocols.session import Box
 from rotator.protocols.star_follower import BELOW, EVERY_S, StarFollower
-from rotator.sources import Refusal
 
 DONE, NOT_DONE = b"1", b"0"
 GOES = b"0"

@@ -12,7 +12,20 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.control.admission import SENT_DEG
-from rotator.orders import Confirm, GiveBack, Home, Jog, LetGo, Mode, Park, RelaysChecked, Release, SetMode, Stop, Take
+from rotator.exchange.orders import (
+    Confirm,
+    GiveBack,
+    Home,
+    Jog,
+    LetGo,
+    Mode,
+    Park,
+    RelaysChecked,
+    Release,
+    SetMode,
+    Stop,
+    Take,
+)
 from rotator.protocols.aiming import aim
 from rotator.protocols.console import LONGEST_JOG_S, PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
 from rotator.protocols.panel_words import TURNS

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from xml.sax.saxutils import escape, unescape
 
-from rotator.orders import Aim, Stop
+from rotator.exchange.orders import Aim, Stop
 from rotator.protocols.aiming import degrees
 from rotator.protocols.session import Box
 

@@ -13,11 +13,11 @@ from hw.ports import Axis
 from rotator.config.station import NO_PLACE
 from rotator.control.rights import Deed, State, deed_of, hindrance, holds, mode_words
 from rotator.control.sky.timed_table import TimedTable
-from rotator.orders import Aim, GiveBack, Home, Jog, Mode, Order, RelaysChecked, Release, SetMode, Stop, Take
+from rotator.exchange.orders import Aim, GiveBack, Home, Jog, Mode, Order, RelaysChecked, Release, SetMode, Stop, Take
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.protocols.console import PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
 from rotator.protocols.session import Box, Tracking
-from rotator.sources import Source
-from rotator.status import Status
 
 SHOWN_S = 0.3
 """So long after an order the status may not show it yet."""

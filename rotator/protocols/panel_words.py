@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
 
 LONGEST_THROW_S = 60.0
 OPERANDS = "mode auto|manual|jog|park | knob azimuth|elevation SHARE | jog cw|ccw|up|down SECONDS | stop press|release"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Axis
-from rotator.orders import Stop
+from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim
 from rotator.protocols.session import Box
 

@@ -12,8 +12,8 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from rotator.exchange.orders import Order, Park, Stop
 from rotator.orbits.earth import Site, direction
-from rotator.orders import Order, Park, Stop
 from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.session import Box
 

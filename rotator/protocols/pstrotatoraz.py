@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from http import HTTPStatus
 from urllib.parse import parse_qsl, urlsplit
 
-from rotator.orders import Order, Stop
+from rotator.exchange.orders import Order, Stop
 from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.session import Box
 

@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 
 from hw.ports import Axis
-from rotator.orders import Stop
+from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim
 from rotator.protocols.lines import LineReader
 from rotator.protocols.session import Box

@@ -7,8 +7,8 @@ Knows the status and Hamlib's words for it. Gives no orders: the settings that a
 from __future__ import annotations
 
 from rotator import __version__
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.rotctld import INVALID_PARAMETER, NOT_AVAILABLE, Answer, BadRequest, number
-from rotator.status import AxisStatus, Status
 
 SPEEDS = (1, 2, 3, 4)
 SPEED_RANGE = f"({SPEEDS[0]}..{SPEEDS[-1]}/1)"

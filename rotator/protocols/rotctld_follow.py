@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 from rotator.protocols.aiming import aim, may_be_sent
 from rotator.protocols.lines import LineReader
 from rotator.protocols.rotctld import BadRequest, Request, encode, number

@@ -9,7 +9,7 @@ from __future__ import annotations
 from hw.ports import Axis, Direction
 from rotator import __version__
 from rotator.control.admission import only_faulted
-from rotator.orders import Jog, Order, Park, Speed, Stop
+from rotator.exchange.orders import Jog, Order, Park, Speed, Stop
 from rotator.protocols import rotctld_caps, rotctld_earth
 from rotator.protocols.aiming import aim
 from rotator.protocols.lines import LineReader

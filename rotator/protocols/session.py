@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import Protocol, runtime_checkable
 
 from rotator.control.sky.timed_table import TimedTable
-from rotator.orders import Order
-from rotator.sources import Refusal
-from rotator.status import Status
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal
+from rotator.exchange.status import Status
 
 
 class Box(Protocol):

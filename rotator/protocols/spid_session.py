@@ -6,7 +6,7 @@ Knows the meaning of the frames. Does not know the bytes (`spid` does), nor how 
 from __future__ import annotations
 
 from hw.ports import Axis, Direction
-from rotator.orders import Jog, Stop
+from rotator.exchange.orders import Jog, Stop
 from rotator.protocols import spid
 from rotator.protocols.aiming import aim
 from rotator.protocols.session import Box

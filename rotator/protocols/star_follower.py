@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Refusal
 from rotator.orbits.celestial import Sky, Star
-from rotator.orders import Aim
 from rotator.protocols.session import Box
-from rotator.sources import Refusal
 
 EVERY_S = 1.0
 """The time between two orders while a star is followed. In a second it moves 0.004°."""

@@ -12,8 +12,8 @@ from math import isfinite
 from typing import Generic, TypeVar
 
 from hw.ports import Axis
-from rotator.faults import Fault
-from rotator.status import AxisStatus, Flown, Status
+from rotator.exchange.faults import Fault
+from rotator.exchange.status import AxisStatus, Flown, Status
 
 FORMAT = 1
 DIGITS = 2

@@ -6,7 +6,7 @@ Knows which plans there are. Knows nothing of how they are computed.
 from __future__ import annotations
 
 from rotator.control.sky.flight_plan import Antenna
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
 from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
 from rotator.tracking.program import Program, program_flight
 

@@ -10,11 +10,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from firmware_sim.clock import SimClock
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Source
 from rotator.orbits.sight import Target
-from rotator.orders import Order
 from rotator.rehearsal.at_once import PlansAtOnce
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import Now

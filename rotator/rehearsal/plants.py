@@ -20,7 +20,9 @@ from rotator.assembly.tracking import TrackedBox, build_known_sky, wanted_names
 from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
-from rotator.orders import Order
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.protocols.gs232 import Command, Dialect, encode
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld import Request
@@ -32,8 +34,6 @@ from rotator.rehearsal.passes import Pass
 from rotator.rehearsal.sky_target import SkyTarget
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.status import Status
 from rotator.tracking.next_flight import Now
 
 KNOWN_S = 120.0

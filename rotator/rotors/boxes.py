@@ -15,7 +15,7 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.held_watch import turns_by_itself
 from rotator.control.axis.readings import Condition, Window
 from rotator.control.sky.offsets import Offsets
-from rotator.faults import Notice
+from rotator.exchange.faults import Notice
 from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 

@@ -17,7 +17,7 @@ from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import unstoppable
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor

@@ -15,8 +15,8 @@ from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.control.axis.readings import Condition
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.sky.offsets import Offsets
-from rotator.faults import Fault, FaultKind, Notice
-from rotator.orders import LetGo
+from rotator.exchange.faults import Fault, FaultKind, Notice
+from rotator.exchange.orders import LetGo
 from rotator.rotors.common import BlockedDirections, PlainRotor, no_switches
 from rotator.rotors.port import AddAlarm
 from rotator.rotors.positioned import steered

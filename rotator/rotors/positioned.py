@@ -13,7 +13,7 @@ from hw.ports import AngleSensor, Axis, Direction, PositionedDrive
 from hw.safety.guard import Expiring
 from rotator.control.commands import Command, Errand, Steer
 from rotator.control.sky.offsets import Offsets
-from rotator.orders import LetGo
+from rotator.exchange.orders import LetGo
 from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 
 

@@ -10,7 +10,7 @@ from hw.drives.servo import ServoDrive
 from hw.ports import AngleSensor, Axis
 from rotator.control.axis.readings import Condition
 from rotator.control.sky.offsets import Offsets
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 

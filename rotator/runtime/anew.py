@@ -10,8 +10,8 @@ import threading
 from collections.abc import Callable
 
 from hw.ports import Axis
-from rotator.sources import Source
-from rotator.status import Latch, Status
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Latch, Status
 
 
 class Anew:

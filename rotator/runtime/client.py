@@ -13,11 +13,11 @@ from dataclasses import dataclass, replace
 
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount
-from rotator.orders import Leave, Order, Stop
+from rotator.exchange.orders import Leave, Order, Stop
+from rotator.exchange.sources import Refusal, Source
+from rotator.exchange.status import Status
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Refusal, Source
-from rotator.status import Status
 
 log = logging.getLogger(__name__)
 

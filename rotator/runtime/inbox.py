@@ -10,8 +10,8 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.orders import Jog, Order
-from rotator.sources import Source
+from rotator.exchange.orders import Jog, Order
+from rotator.exchange.sources import Source
 
 
 @dataclass(frozen=True, slots=True)

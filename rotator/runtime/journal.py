@@ -9,10 +9,10 @@ import logging
 from collections.abc import Callable, Iterable
 
 from hw.ports import Axis
-from rotator.faults import Notice
+from rotator.exchange.faults import Notice
+from rotator.exchange.spoken import held_by
+from rotator.exchange.status import Status
 from rotator.runtime.log_limit import LogLimit
-from rotator.spoken import held_by
-from rotator.status import Status
 
 log = logging.getLogger(__name__)
 

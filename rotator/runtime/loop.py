@@ -14,14 +14,14 @@ from dataclasses import replace
 
 from hw.ports import Axis, HardwareError
 from rotator.control.controller import Controller
-from rotator.orders import Order, Stop
+from rotator.exchange.orders import Order, Stop
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Latch, Status, Tries
 from rotator.rotors.port import Rotor
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
 from rotator.runtime.journal import Journal
 from rotator.runtime.sensor_thread import SensorThread
-from rotator.sources import Source
-from rotator.status import Latch, Status, Tries
 
 log = logging.getLogger(__name__)
 

@@ -10,7 +10,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from rotator.status import Latch
+from rotator.exchange.status import Latch
 from rotator.store.forms import Form
 from rotator.store.spared import SparedFile
 

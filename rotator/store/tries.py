@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.faults import FaultKind
-from rotator.status import NO_TRIES, Places, Tries
+from rotator.exchange.faults import FaultKind
+from rotator.exchange.status import NO_TRIES, Places, Tries
 from rotator.store.forms import Form
 from rotator.store.json_file import number
 from rotator.store.spared import SparedFile

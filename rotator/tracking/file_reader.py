@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from rotator.orbits.catalogue import Found, read_file
-from rotator.own_process import OwnProcess
+from rotator.runtime.own_process import OwnProcess
 
 LARGE_BYTES = 200_000
 """Bytes of some hundred satellites. A smaller file takes some milliseconds; the start of a process, half a second."""

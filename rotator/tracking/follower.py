@@ -13,11 +13,11 @@ from typing import Protocol
 
 from rotator.control.rights import deed_of
 from rotator.control.sky.flight_plan import Antenna
+from rotator.exchange.orders import GiveBack, Mode, Order
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import GiveBack, Mode, Order
-from rotator.sources import Source
-from rotator.status import Status
 from rotator.tracking.next_flight import NextFlight, Now
 from rotator.tracking.next_followed import Upcoming, WantedOften
 from rotator.tracking.tracker import TRACK, Box, Flown, Tracker, lost

@@ -11,6 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from rotator.config.station import NO_PLACE
+from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
@@ -18,7 +19,6 @@ from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
 from rotator.orbits.targets import Fixed, find, fixed
 from rotator.orbits.twins import one_of_each
-from rotator.orders import Aim
 from rotator.tracking.next_flight import Wanted
 
 _ANYWHERE = Site(0.0, 0.0)

@@ -11,11 +11,11 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from rotator.exchange.orders import Aim, Order
+from rotator.exchange.sources import Source
 from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orders import Aim, Order
-from rotator.sources import Source
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.next_flight import Now, Wanted
 from rotator.tracking.tracker import Box, Planner

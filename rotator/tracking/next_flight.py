@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.route import Way
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from rotator.control.sky.flight_plan import Antenna
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.own_process import OwnProcess
+from rotator.runtime.own_process import OwnProcess
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted, next_flight, rest_flight
 from rotator.tracking.next_followed import Upcoming, WantedOften, next_followed
 from rotator.tracking.program import CannotFly, Program, program_flight

@@ -15,12 +15,12 @@ from typing import Protocol
 
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.timed_table import TimedTable
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import BOTH, Aim, LetGo, Order, Park, Release, SetMode, Stop, Take
+from rotator.exchange.sources import TRACKER, Source
+from rotator.exchange.status import Status
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import BOTH, Aim, LetGo, Order, Park, Release, SetMode, Stop, Take
-from rotator.sources import TRACKER, Source
-from rotator.status import Status
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 from rotator.tracking.program import CannotFly, Program
 from rotator.tracking.system_clock import TOLD_S

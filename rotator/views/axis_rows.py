@@ -12,7 +12,7 @@ from rich.text import Text
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.mount import Mount
-from rotator.status import AxisStatus, Status
+from rotator.exchange.status import AxisStatus, Status
 from rotator.views.bars import Bar, Zone, forbidden, overlap
 from rotator.views.frame import Row
 from rotator.views.sky_plot import ANTENNA_STYLE, TARGET_STYLE

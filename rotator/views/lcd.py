@@ -6,10 +6,10 @@ Knows the layout, and the notices that replace the upper row in turn. Does not k
 from __future__ import annotations
 
 from hw.ports import Axis
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
+from rotator.exchange.spoken import short_sender
+from rotator.exchange.status import Status
 from rotator.protocols.gs232 import whole
-from rotator.spoken import short_sender
-from rotator.status import Status
 from rotator.views.words import rise_or_set
 
 COLUMNS = 16

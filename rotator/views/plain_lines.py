@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hw.ports import Axis, Direction
-from rotator.spoken import sender
-from rotator.status import AxisStatus, Status
+from rotator.exchange.spoken import sender
+from rotator.exchange.status import AxisStatus, Status
 from rotator.views.words import TURNS, WireView, degrees, notes
 
 

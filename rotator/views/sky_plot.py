@@ -17,7 +17,7 @@ from rich.text import Text
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.mount import Mount
-from rotator.status import Status
+from rotator.exchange.status import Status
 
 ANTENNA, TARGET, BOTH = "◆", "◇", "◈"
 ANTENNA_STYLE, TARGET_STYLE, FORBIDDEN_STYLE = "bold cyan", "bold green", "red"

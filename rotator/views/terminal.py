@@ -15,8 +15,8 @@ from rich.text import Text
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.mount import Mount
-from rotator.spoken import spoken
-from rotator.status import Status
+from rotator.exchange.spoken import spoken
+from rotator.exchange.status import Status
 from rotator.views import sky_plot
 from rotator.views.axis_rows import WIDE, Ranks, axis_rows, lamps
 from rotator.views.frame import ENDLESS, Column, Framed, Row, beside, boxed, fewer, table, wrapped

@@ -11,11 +11,11 @@ from typing import Protocol
 
 from hw.ports import Axis, Direction
 from rotator.control.rights import mode_words
-from rotator.faults import FaultKind
-from rotator.orders import Mode
-from rotator.sources import PANEL
-from rotator.spoken import sender, spoken
-from rotator.status import AxisStatus, Flown, Status
+from rotator.exchange.faults import FaultKind
+from rotator.exchange.orders import Mode
+from rotator.exchange.sources import PANEL
+from rotator.exchange.spoken import sender, spoken
+from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.views.sky_plot import off_deg
 
 TURNS = {

@@ -12,13 +12,13 @@ from typing import Any
 
 from aiohttp import web
 
-from rotator.orders import Jog, Release, Stop
+from rotator.exchange.orders import Jog, Release, Stop
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.protocols.methods import METHODS, Method
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
-from rotator.sources import Source
-from rotator.status import Status
 from rotator.store.paired import Paired
 from rotator.web import assets, openapi, scene_schema
 from rotator.web.api_page import api_page

@@ -14,7 +14,8 @@ from typing import Any
 
 from aiohttp import web
 
-from rotator.backup import CHECKS, CONFIGURATION, MOST_BYTES, Backup, BackupError, check, pack, stage
+from rotator.backup.content import CHECKS, CONFIGURATION, MOST_BYTES, Backup, BackupError, check, pack
+from rotator.backup.restore import stage
 from rotator.config import toml_text
 from rotator.config.model import Config
 from rotator.protocols.methods import WrongValuesError

@@ -18,10 +18,10 @@ from hw.ports import Axis
 from rotator.config.edit import NoChangeError
 from rotator.config.load import ConfigError
 from rotator.config.proposal import OverwritesError, Proposal, Settings, propose, settings, write
+from rotator.exchange.status import Status
 from rotator.protocols.methods import WrongValuesError
 from rotator.runtime.anew import Anew
 from rotator.setup.plan import SetupError
-from rotator.status import Status
 from rotator.web.entrance import RefusedError
 from rotator.web.schema import TEXT, YES, object_of, the
 

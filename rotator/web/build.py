@@ -19,14 +19,14 @@ from rotator.config.links import address
 from rotator.config.mistake import counted
 from rotator.config.model import Config
 from rotator.control.sky.mount import Mount
+from rotator.exchange.orders import GiveBack, Order, Take
+from rotator.exchange.sources import PAGE, Source
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap
-from rotator.orders import GiveBack, Order, Take
 from rotator.runtime.anew import Anew
 from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import PAGE, Source
 from rotator.store.flown import FlownPasses
 from rotator.store.paired import FILE_NAME, Paired, PairedFile
 from rotator.store.uploads import Uploads

@@ -23,8 +23,8 @@ from pydantic import BaseModel
 
 from rotator import __version__
 from rotator.config.model import Config
+from rotator.exchange.status import Status
 from rotator.protocols.status_object import as_object
-from rotator.status import Status
 from rotator.store import compass, counts, knobs, relays
 from rotator.web.redaction import REMOVED, Redaction, is_secret
 

@@ -11,8 +11,8 @@ from typing import Any
 
 from aiohttp import web
 
+from rotator.exchange.sources import PAGE, Source
 from rotator.protocols.methods import WrongValuesError
-from rotator.sources import PAGE, Source
 from rotator.store.paired import Paired
 from rotator.web import assets
 from rotator.web.connections import Connections

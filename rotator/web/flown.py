@@ -18,8 +18,8 @@ from datetime import UTC, datetime
 from aiohttp import web
 
 from rotator.control.sky.mount import Mount
+from rotator.exchange.status import Status
 from rotator.protocols.methods import WrongValuesError
-from rotator.status import Status
 from rotator.store.flown import FlownPass, FlownPasses, picture_name
 from rotator.views.pass_svg import Flown, draw
 from rotator.web.entrance import Entrance

@@ -11,7 +11,7 @@ from typing import Any
 
 from rotator.config.load import SIMULATED_FILE
 from rotator.config.model import Config
-from rotator.sources import PAGE, Source
+from rotator.exchange.sources import PAGE, Source
 from rotator.web.api import Group
 from rotator.web.backup_api import BackupApi
 from rotator.web.box_file import BoxFile

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from itertools import count
 
 from hw.ports import Axis, Direction
-from rotator.orders import Jog
+from rotator.exchange.orders import Jog
 from rotator.protocols.panel_words import TURNS
 
 LEASE_S = 0.45

@@ -14,9 +14,9 @@ from typing import Any
 from aiohttp import web
 
 from rotator.config.sky import FollowTable
+from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import Aim
 from rotator.protocols.methods import WrongValuesError
 from rotator.store.priorities import Priorities
 from rotator.tracking.known_sky import KnownSky

@@ -12,8 +12,8 @@ from itertools import pairwise
 
 from hw.ports import Axis
 from rotator.control.sky.known_path import KnownPath
-from rotator.flight_order import Fly
-from rotator.status import AxisStatus, Status
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.status import AxisStatus, Status
 from rotator.views.trace import Sample, errors_deg, rms
 
 EVERY_S = 0.5

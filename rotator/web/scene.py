@@ -17,13 +17,13 @@ from typing import Any
 from hw.ports import Axis, Direction
 from rotator import __version__
 from rotator.control.sky.mount import Mount
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import Stop
+from rotator.exchange.sources import TRACKER
+from rotator.exchange.spoken import sender, spoken
+from rotator.exchange.status import AxisStatus, Status, Trust
 from rotator.links.wire import Wire
-from rotator.orders import Stop
 from rotator.protocols.status_object import as_object
-from rotator.sources import TRACKER
-from rotator.spoken import sender, spoken
-from rotator.status import AxisStatus, Status, Trust
 from rotator.views import words
 from rotator.views.sky_plot import Way, aimed_at, off_deg, pointing
 

@@ -11,7 +11,7 @@ from hw.ports import Axis, Direction
 from rotator.assembly.hands import hands
 from rotator.assembly.simulation import simulated_rotor
 from rotator.config.load import parse
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 
 AZ, PLUS = Axis.AZIMUTH, Direction.PLUS

@@ -10,8 +10,8 @@ from hw.ports import Axis
 from rotator.assembly.kept_files import build_tries_file
 from rotator.config.load import parse
 from rotator.config.model import Config
-from rotator.faults import FaultKind
-from rotator.status import Tries
+from rotator.exchange.faults import FaultKind
+from rotator.exchange.status import Tries
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MET = Tries(2, FaultKind.END_STOP, (182.0, None), (182.0, None))

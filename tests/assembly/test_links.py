@@ -17,15 +17,15 @@ from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.config.load import parse
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount, Range
+from rotator.exchange.orders import Aim, Order
+from rotator.exchange.sources import Refusal
 from rotator.monitor.tap import Tap
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
-from rotator.orders import Aim, Order
 from rotator.protocols import pstrotatoraz
 from rotator.protocols.pstrotatoraz import response
 from rotator.protocols.reference.gs232 import Example
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Refusal
 
 SKY = Sky(Site(52.5, 13.4), lambda: 1.8e9)
 ONLY_GET = "only GET, and at most 4096 bytes\n"

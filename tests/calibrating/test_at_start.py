@@ -15,8 +15,8 @@ from rotator.calibrating.compass import CompassReader
 from rotator.calibrating.compass_guide import SAMPLES
 from rotator.calibrating.facts import north_facts
 from rotator.config.load import ConfigError, parse
-from rotator.orders import Aim, Confirm
-from rotator.sources import Source
+from rotator.exchange.orders import Aim, Confirm
+from rotator.exchange.sources import Source
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
 
 ISEL = next(kind for kind in KINDS if kind.profile == "isel")

@@ -13,12 +13,12 @@ from rotator.assembly.settings import build_mount
 from rotator.calibrating.stops import OnlyStops, only_stops
 from rotator.config.load import parse
 from rotator.config.model import Config
-from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Park, Release, SetMode, Stop
+from rotator.exchange.orders import Aim, Home, Jog, Mode, Nudge, Order, Park, Release, SetMode, Stop
+from rotator.exchange.sources import Source
 from rotator.panel.inputs import POSITIONS
 from rotator.protocols.console import VERBS
 from rotator.protocols.console_session import ConsoleSession
 from rotator.runtime.client import Client
-from rotator.sources import Source
 from tests.calibrating.rig import PERIOD_S, QUIET, SkyCalibration
 from tests.calibrating.test_scan import PLACE, behind, station
 

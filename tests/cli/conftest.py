@@ -22,7 +22,7 @@ from pathlib import Path
 import pytest
 
 from rotator.cli.main import main
-from rotator.status import Status
+from rotator.exchange.status import Status
 from tests.boxes import FAST_ROTOR
 from tests.cli.scripted import ScriptedConsole
 

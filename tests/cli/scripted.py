@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import AngleSource, Direction
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.status_object import as_object
-from rotator.status import AxisStatus, Status
 
 Start = Callable[..., Any]
 StartInTerminal = Callable[..., Any]

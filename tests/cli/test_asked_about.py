@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.faults import Fault, FaultKind, Missing
-from rotator.status import AxisStatus, Status
+from rotator.exchange.faults import Fault, FaultKind, Missing
+from rotator.exchange.status import AxisStatus, Status
 from tests.cli.scripted import Rotator, Start, StartInTerminal, counted, pointed, said, why
 
 

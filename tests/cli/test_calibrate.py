@@ -18,7 +18,7 @@ from rotator.calibrating.results import AxisCalibrated
 from rotator.calibrating.saving import as_toml
 from rotator.config.load import load, parse
 from rotator.config.places import console_path
-from rotator.status import Latch
+from rotator.exchange.status import Latch
 from rotator.store.latch import FILE_NAME, LatchFile
 from rotator.store.whole import NEW
 

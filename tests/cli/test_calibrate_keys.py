@@ -15,7 +15,7 @@ from hw.ports import Axis, Direction
 from rotator.calibrating.axis_guide import AxisFacts
 from rotator.calibrating.entries import NUMBER_STARTS, Enter, Entry, Keyboard, Number, Press, Quit, StopNow, Unknown
 from rotator.calibrating.table_guide import TableGuide
-from rotator.status import AxisStatus, Status
+from rotator.exchange.status import AxisStatus, Status
 
 StartInTerminal = Callable[..., Any]
 

@@ -16,7 +16,8 @@ import pytest
 
 SLOW = {
     *("asyncio", "pydantic", "tomlkit", "rich", "serial", "smbus2", "gpiod", "astronomy", "sgp4"),
-    *("rotator.config.model", "rotator.orders", "rotator.status", "rotator.app", "rotator.assembly", "firmware_sim"),
+    *("rotator.config.model", "rotator.exchange.orders", "rotator.exchange.status"),
+    *("rotator.box", "rotator.assembly", "firmware_sim"),
 }
 """None of these is needed to print help, or to talk with a box that runs."""
 
@@ -91,7 +92,7 @@ def test_a_start_of_the_box_loads_no_library_that_writes_toml(tmp_path: Path) ->
     station = tmp_path / "station.toml"
     station.write_text('[rotor]\nhardware = "sim"\n')
     found = loaded(tmp_path, "run", "--config", str(station), "--fault", "list")
-    assert "rotator.app" in found
+    assert "rotator.box.app" in found
     assert "tomlkit" not in found
 
 

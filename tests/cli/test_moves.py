@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis
-from rotator.faults import Fault, FaultKind, Missing
-from rotator.status import AxisStatus, Status
+from rotator.exchange.faults import Fault, FaultKind, Missing
+from rotator.exchange.status import AxisStatus, Status
 from tests.cli.scripted import COMMAND, Rotator, StartInTerminal, counted, pointed, said, why
 
 

@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 from rotator.cli import pages
 from rotator.cli.commands import Commands
 from rotator.cli.main import cli
-from rotator.faults import FaultKind
+from rotator.exchange.faults import FaultKind
 
 ROOT = Path(__file__).parents[2]
 SOURCE = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "rotator").rglob("*.py"))]

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.cli.run_keys import RunKeys
-from rotator.orders import Aim, Park, Release, Stop
+from rotator.exchange.orders import Aim, Park, Release, Stop
 from tests.protocols.conftest import BenchBox
 
 ANY_KEY = [chr(code) for code in range(256)]

@@ -23,7 +23,7 @@ from rotator.cli.box import RunningBox
 from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import monitors
 from rotator.config.places import console_path
-from rotator.orders import Stop
+from rotator.exchange.orders import Stop
 from rotator.protocols.console import parse
 from rotator.protocols.console_session import OK
 

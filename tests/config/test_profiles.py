@@ -11,7 +11,7 @@ from rotator.config.axes import AxisTable
 from rotator.config.load import ConfigError, parse, profiles, shipped
 from rotator.config.model import Config
 from rotator.control.axis.calibration_table import Calibration
-from rotator.faults import Missing
+from rotator.exchange.faults import Missing
 from rotator.rehearsal.flight import fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
 from tests.search import some

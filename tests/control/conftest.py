@@ -18,10 +18,10 @@ from rotator.control.commands import Run
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range, Sector
-from rotator.faults import Missing
-from rotator.orders import Order
-from rotator.sources import Source
-from rotator.status import Status
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 LOW_RAW, HIGH_RAW = 0.05, 0.95

@@ -9,8 +9,8 @@ import pytest
 from hw.ports import AngleSource, Axis, Direction
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount, Range
-from rotator.faults import Fault, FaultKind, Missing
-from rotator.orders import (
+from rotator.exchange.faults import Fault, FaultKind, Missing
+from rotator.exchange.orders import (
     Aim,
     Calibrate,
     ClearTimed,
@@ -26,7 +26,7 @@ from rotator.orders import (
     Speed,
     Stop,
 )
-from rotator.status import AxisStatus, Status, Trust
+from rotator.exchange.status import AxisStatus, Status, Trust
 
 MOUNT = Mount(Range(0, 350), Range(0, 180))
 ALWAYS: list[Order] = [

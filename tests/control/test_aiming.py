@@ -8,9 +8,9 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.known_path import KnownPath
-from rotator.flight_order import AxisPlan, Fly
-from rotator.orders import Aim, Jog, LoadTimed, Nudge, Order, Park, Stop
-from rotator.sources import Source
+from rotator.exchange.flight_order import AxisPlan, Fly
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Nudge, Order, Park, Stop
+from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PANEL = Source("panel")

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from rotator.control.authority import Authority
 from rotator.control.senders import PAUSE_S, SINGLE_PAUSE_S
-from rotator.orders import Mode
-from rotator.sources import Source
+from rotator.exchange.orders import Mode
+from rotator.exchange.sources import Source
 
 CONSOLE = Source("console")
 PST, GPREDICT, GPREDICT_AGAIN = Source("gs232b", 1), Source("rotctld", 1), Source("rotctld", 2)

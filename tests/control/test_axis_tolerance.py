@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 from tests.search import examples
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Speed, Stop
+from rotator.exchange.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Speed, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

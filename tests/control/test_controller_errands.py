@@ -8,8 +8,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.commands import Acknowledge, Place
-from rotator.faults import FaultKind, Notice
-from rotator.orders import (
+from rotator.exchange.faults import FaultKind, Notice
+from rotator.exchange.orders import (
     Aim,
     Confirm,
     Home,
@@ -24,8 +24,8 @@ from rotator.orders import (
     SetMode,
     Stop,
 )
-from rotator.sources import Source
-from rotator.status import Trust
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Trust
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, LoadTimed, Order, Park, Release, RunTimed, Stop
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Park, Release, RunTimed, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

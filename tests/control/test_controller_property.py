@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import LONGEST_WAIT_S, UNCALIBRATED_JOG_S
 from rotator.control.commands import Place
-from rotator.faults import Missing
-from rotator.flight_order import AxisPlan, Fly, Step
-from rotator.orders import (
+from rotator.exchange.faults import Missing
+from rotator.exchange.flight_order import AxisPlan, Fly, Step
+from rotator.exchange.orders import (
     Aim,
     Calibrate,
     ClearTimed,
@@ -37,7 +37,7 @@ from rotator.orders import (
     Stop,
     Take,
 )
-from rotator.sources import CONSOLE, Source
+from rotator.exchange.sources import CONSOLE, Source
 from tests.search import examples
 
 LINKS = [Source("gs232b", 1), Source("rotctld", 1), Source("console")]

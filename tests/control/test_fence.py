@@ -10,8 +10,8 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.reach import bounds
 from rotator.control.sky.mount import Range, Sector
-from rotator.faults import FaultKind, Missing
-from rotator.orders import Aim, Home, Jog, Park, Stop
+from rotator.exchange.faults import FaultKind, Missing
+from rotator.exchange.orders import Aim, Home, Jog, Park, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS, MINUS = Direction.PLUS, Direction.MINUS

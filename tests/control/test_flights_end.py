@@ -17,10 +17,10 @@ from rotator.control.commands import Steer
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range, Sector
-from rotator.flight_order import PLAN_STEP_S, AxisPlan, Fly
-from rotator.orders import Aim, Jog, LetGo, Order, Release, Stop
-from rotator.sources import TRACKER, Source
-from rotator.status import Status
+from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly
+from rotator.exchange.orders import Aim, Jog, LetGo, Order, Release, Stop
+from rotator.exchange.sources import TRACKER, Source
+from rotator.exchange.status import Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 TRACK, CONSOLE, OTHER = Source(TRACKER), Source("console"), Source("rotctld", 1)

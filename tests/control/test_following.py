@@ -9,8 +9,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.following import QUIET_S
-from rotator.flight_order import AxisPlan, Fly, Stream
-from rotator.orders import Aim, Jog, Leave, Mode, Nudge, Order, Park, Release, SetMode, Stop
+from rotator.exchange.flight_order import AxisPlan, Fly, Stream
+from rotator.exchange.orders import Aim, Jog, Leave, Mode, Nudge, Order, Park, Release, SetMode, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 BEGIN_S, RATE_DPS, LEVEL_DEG = 1000.0, 0.5, 10.0

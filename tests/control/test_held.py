@@ -8,9 +8,9 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.senders import PAUSE_S
-from rotator.faults import Missing
-from rotator.orders import Aim, GiveBack, Jog, Mode, Order, Park, Release, SetMode, Stop, Take
-from rotator.sources import Source
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, GiveBack, Jog, Mode, Order, Park, Release, SetMode, Stop, Take
+from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

@@ -8,7 +8,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.commands import Place
-from rotator.orders import Aim, Confirm, Home, Park, Release, Stop
+from rotator.exchange.orders import Aim, Confirm, Home, Park, Release, Stop
 from tests.control.conftest import AZ, EL, Desk
 
 CONSOLE, LINK = Desk.CONSOLE, Desk.LINK

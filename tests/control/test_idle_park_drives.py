@@ -11,8 +11,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.faults import FaultKind
-from rotator.orders import (
+from rotator.exchange.faults import FaultKind
+from rotator.exchange.orders import (
     Aim,
     Confirm,
     GiveBack,
@@ -31,7 +31,7 @@ from rotator.orders import (
     Stop,
     Take,
 )
-from rotator.sources import Source
+from rotator.exchange.sources import Source
 from tests.search import examples
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -9,9 +9,9 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.jogs import Jogs
-from rotator.faults import Missing
-from rotator.orders import Jog
-from rotator.sources import Source
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Jog
+from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS = Direction.PLUS

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
-from rotator.orders import Aim, Jog, Leave, LoadTimed, Order, Park, Stop
-from rotator.sources import Source
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Jog, Leave, LoadTimed, Order, Park, Stop
+from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

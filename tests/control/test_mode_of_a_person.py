@@ -6,8 +6,8 @@ import pytest
 
 from rotator.control.authority import Authority
 from rotator.control.rights import Deed
-from rotator.orders import Mode
-from rotator.sources import Source
+from rotator.exchange.orders import Mode
+from rotator.exchange.sources import Source
 
 ANNA, BERT = Source("page", 1), Source("page", 2)
 CONSOLE, LATER, PANEL, PC = Source("console", 1), Source("console", 2), Source("panel"), Source("gs232b", 1)

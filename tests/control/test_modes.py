@@ -8,8 +8,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
-from rotator.orders import Aim, Jog, Mode, Park, Release, SetMode, Stop
-from rotator.sources import Source
+from rotator.exchange.orders import Aim, Jog, Mode, Park, Release, SetMode, Stop
+from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

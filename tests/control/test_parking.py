@@ -10,9 +10,9 @@ from rotator.config.load import parse
 from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range
-from rotator.orders import Aim, Jog, LetGo, Mode, Order, Park, Release, RunTimed, SetMode, Stop
+from rotator.exchange.orders import Aim, Jog, LetGo, Mode, Order, Park, Release, RunTimed, SetMode, Stop
+from rotator.exchange.sources import Source
 from rotator.rehearsal.plants import BoxPlant
-from rotator.sources import Source
 
 LINK, CONSOLE = Source("gs232b", 1), Source("console")
 PARKED = (90.0, 45.0)

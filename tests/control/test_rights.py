@@ -13,7 +13,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.commands import Place
 from rotator.control.rights import TABLE, Deed, Effect, State
-from rotator.orders import (
+from rotator.exchange.orders import (
     Aim,
     Calibrate,
     Confirm,
@@ -30,7 +30,7 @@ from rotator.orders import (
     Stop,
     Take,
 )
-from rotator.sources import Source
+from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

@@ -7,8 +7,8 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.senders import FIGHT_TAKES, Senders, aims_of
 from rotator.control.sky.angles import Coordinates
-from rotator.orders import Aim, Jog, Order, Stop
-from rotator.sources import Source
+from rotator.exchange.orders import Aim, Jog, Order, Stop
+from rotator.exchange.sources import Source
 
 ONE, OTHER, THIRD = Source("gs232b", 1), Source("rotctld", 1), Source("easycomm2", 1)
 HERE, THERE = (180.0, 45.0), (20.0, 10.0)

@@ -20,7 +20,7 @@ from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
 from rotator.config.load import shipped
 from rotator.config.model import Config
-from rotator.faults import FaultKind
+from rotator.exchange.faults import FaultKind
 from rotator.panel.ladder import LEVELS
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -9,10 +9,10 @@ import pytest
 
 from hw.ports import AngleSource, Axis
 from rotator.doctor.running import running_box
-from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.orders import Mode
+from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
+from rotator.exchange.orders import Mode
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.status_object import as_object
-from rotator.status import AxisStatus, Status
 from tests.doctor.conftest import Pi
 
 HEALTHY = Status(0.0, AxisStatus(0.0, 450.0, 20.0), AxisStatus(0.0, 180.0, 10.0, source=AngleSource.COUNTED))

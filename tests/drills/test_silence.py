@@ -10,8 +10,8 @@ import pytest
 from benchmarks.drills.judges import SILENCE, AxisCase
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.world import AxisTruth
-from rotator.faults import Notice
-from rotator.status import AxisStatus, Status
+from rotator.exchange.faults import Notice
+from rotator.exchange.status import AxisStatus, Status
 
 QUIET = Status(0.0, AxisStatus(0.0, 360.0), AxisStatus(0.0, 90.0))
 TOLD = replace(QUIET, azimuth=replace(QUIET.azimuth, notices=(Notice("bad readings now and then"),)))

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import parse
 from tests.boxes import free_port
 from tests.foreign.conftest import start_box

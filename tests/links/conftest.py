@@ -19,13 +19,13 @@ from firmware_sim.clock import SimClock
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.model import Config
+from rotator.exchange.sources import Source
 from rotator.links.wire import Wire
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 from tests.boxes import free_port
 
 PATIENCE_S = 30.0

@@ -11,11 +11,11 @@ from typing import Any
 
 import pytest
 
+from rotator.exchange.sources import Source
 from rotator.links.asking import AskingLink
 from rotator.links.wire import Wire
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.runtime.client import Client
-from rotator.sources import Source
 
 PATIENCE_S = 30.0
 Running = Callable[[AskingLink], Any]

@@ -10,12 +10,12 @@ from typing import Any
 
 import pytest
 
+from rotator.exchange.sources import Source
 from rotator.links.allowed import Allowed
 from rotator.links.udp import FORGOTTEN_AFTER_S, MOST_BYTES, MOST_SENDERS, Report, UdpLink
 from rotator.links.wire import LinkError, Wire
 from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.runtime.client import Client
-from rotator.sources import Source
 from tests.boxes import free_udp_ports
 
 PATIENCE_S = 30.0

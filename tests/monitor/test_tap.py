@@ -7,6 +7,8 @@ from datetime import datetime, timedelta
 
 import pytest
 
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.links.wire import KEPT_BYTES, Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import HEADS, Way
@@ -15,8 +17,6 @@ from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.reference.gs232 import Example
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.sources import Source
-from rotator.status import Status
 
 GS232, ROTCTLD = Source("gs232b", 1), Source("rotctld", 3)
 

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from rotator.exchange.sources import Source
 from rotator.monitor.transcript import (
     At,
     LinkNote,
@@ -23,7 +24,6 @@ from rotator.monitor.transcript import (
     parse,
     unescape,
 )
-from rotator.sources import Source
 
 MOMENT = datetime(2026, 11, 21, 18, 3, 22, 114_600)
 BOX = Source("gs232b", 1)

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.protocols.status_object import as_object
 from tests.boxes import FAST_ROTOR, free_port

@@ -9,13 +9,13 @@ import hypothesis.strategies as st
 import pytest
 from hypothesis import given
 
+from rotator.exchange.orders import Aim, Order, Park, Stop
+from rotator.exchange.sources import MQTT, Refusal, Source
+from rotator.exchange.status import AxisStatus, Status
 from rotator.mqtt.desk import LONGEST, Desk
 from rotator.mqtt.topics import Topics, discovery
-from rotator.orders import Aim, Order, Park, Stop
 from rotator.protocols.methods import METHODS
 from rotator.protocols.operating import Operating
-from rotator.sources import MQTT, Refusal, Source
-from rotator.status import AxisStatus, Status
 
 AT_REST = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
 POINT = b'{"azimuth_deg": 200, "elevation_deg": 30}'

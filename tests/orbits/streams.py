@@ -6,10 +6,10 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Source
 from rotator.orbits.recognition import Departed, Recognised, StreamWatch
 from rotator.orbits.sight import Sight, Target
-from rotator.orders import Aim
-from rotator.sources import Source
 
 PROGRAM = Source("gs232b")
 Path = Callable[[float], tuple[float, float]]

@@ -19,10 +19,10 @@ from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
 from hw.ports import AngleSource, Axis
 from hw.sensors.pot import PotSensor, Reference
-from rotator.orders import Mode, Order, Release, SetMode, Stop
+from rotator.exchange.orders import Mode, Order, Release, SetMode, Stop
+from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.panel import LAMPS, Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
-from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MANUAL, PARK, AUTO, JOG = range(4)

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from hw.ports import AngleSource, Axis, Direction
-from rotator.orders import Mode, Order, SetMode
+from rotator.exchange.orders import Mode, Order, SetMode
+from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.ladder import level
 from rotator.panel.panel import Panel, PanelInputs, PanelOutput, PanelSettings
-from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS, MINUS, OFF = Direction.PLUS, Direction.MINUS, Direction.OFF

@@ -7,7 +7,7 @@ from dataclasses import replace
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotator.orders import Aim, Home, Jog, Mode, Nudge, Release, SetMode, Stop
+from rotator.exchange.orders import Aim, Home, Jog, Mode, Nudge, Release, SetMode, Stop
 from rotator.panel.ladder import thrown
 from tests.panel.person import AZ, BITS, CCW, CENTRE, CW, CW_AND_UP, DOWN, LATCHED, OFF, STILL, UP, Person
 from tests.search import examples

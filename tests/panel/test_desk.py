@@ -13,10 +13,10 @@ from firmware_sim.clock import SimClock
 from firmware_sim.panel import PanelSpec, SimPanel
 from hw.buses.gpio import GpioInputs
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
+from rotator.exchange.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
+from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
-from rotator.status import AxisStatus, Status
 from tests.panel.desk import AUTO, AZ, EL, FULL_SCALE, JOG, MANUAL, PARK, Desk, in_mode
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from hw.ports import Direction
-from rotator.orders import Jog, Nudge, Stop
+from rotator.exchange.orders import Jog, Nudge, Stop
 from tests.panel.desk import AUTO, AZ, JOG, in_mode
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotator.orders import Aim, Order
+from rotator.exchange.orders import Aim, Order
 from tests.panel.person import LOOK_S, MANUAL, Person, about, at_the_panel
 from tests.search import examples
 

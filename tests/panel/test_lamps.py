@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rotator.exchange.status import AxisStatus
 from rotator.panel.panel import LAMPS
-from rotator.status import AxisStatus
 from tests.panel.person import AUTO, AZ, EL, MINUS, STILL, at_the_panel
 
 

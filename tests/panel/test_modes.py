@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from rotator.faults import Missing
-from rotator.orders import Aim, Jog, Mode, Nudge, Release, SetMode, Stop
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Jog, Mode, Nudge, Release, SetMode, Stop
 from rotator.panel.panel import Panel, PanelSettings
 from tests.panel.person import (
     AUTO,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rotator.orders import Aim, Home, Jog, Mode, Release, SetMode
+from rotator.exchange.orders import Aim, Home, Jog, Mode, Release, SetMode
 from rotator.panel.panel import Panel, PanelSettings
 from tests.panel.person import AUTO, AZ, CW, EL, JOG, MANUAL, PARK, PLUS, Person, about, at_the_panel
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rotator.orders import Mode, Release, SetMode, Stop
+from rotator.exchange.orders import Mode, Release, SetMode, Stop
 from tests.panel.person import AUTO, AZ, CENTRE, CW, JOG, LATCHED, MANUAL, PARK, PLUS, STILL, Person, at_the_panel
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from rotator.orders import Mode, SetMode, Stop
+from rotator.exchange.orders import Mode, SetMode, Stop
 from rotator.panel.thread import PANEL_THREADS
 from tests.panel.desk import Bench
 

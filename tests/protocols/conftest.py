@@ -20,11 +20,11 @@ from rotator.control.commands import Run
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range
-from rotator.faults import Missing
-from rotator.orders import Aim, Jog, LoadTimed, Order, Park, RunTimed
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Park, RunTimed
+from rotator.exchange.sources import Refusal, Source
+from rotator.exchange.status import Status
 from rotator.protocols.session import Session
-from rotator.sources import Refusal, Source
-from rotator.status import Status
 
 LINK = Source("link", 1)
 PERIOD_S = 0.05

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, LoadTimed, Order, RunTimed
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, RunTimed
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session

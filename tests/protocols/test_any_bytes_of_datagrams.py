@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotator.orders import Aim, Order, Park
+from rotator.exchange.orders import Aim, Order, Park
 from rotator.protocols.macdoppler import MacDopplerSession
 from rotator.protocols.n1mm import N1mmSession
 from rotator.protocols.pstrotator import PstRotatorSession

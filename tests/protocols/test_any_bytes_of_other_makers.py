@@ -17,7 +17,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Order, Park
+from rotator.exchange.orders import Aim, Jog, Order, Park
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession

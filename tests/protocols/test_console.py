@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
-from rotator.orders import (
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import (
     Aim,
     Confirm,
     GiveBack,
@@ -26,6 +26,7 @@ from rotator.orders import (
     Stop,
     Take,
 )
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.console import (
     VERBS,
     Ask,
@@ -41,7 +42,6 @@ from rotator.protocols.console import (
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Session
-from rotator.status import AxisStatus, Status
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -15,9 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
+from rotator.exchange.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.console_session import ConsoleSession
-from rotator.status import AxisStatus, Status
 from tests.search import examples
 
 WELL_FORMED = re.compile(rb"(?:(?!ok\n|error: )[^\r\n]+\n)*ok\n|error: [^\r\n]+\n")

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from rotator.config.station import NO_PLACE
 from rotator.control.sky.timed_table import TimedTable
+from rotator.exchange.status import Status
 from rotator.protocols.console_session import MOST_TABLE_LINES, ConsoleSession
-from rotator.status import Status
 
 if TYPE_CHECKING:
     pass

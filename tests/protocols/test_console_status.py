@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from hw.ports import Axis
-from rotator.faults import Missing
-from rotator.orders import Order
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal, Source
+from rotator.exchange.status import Status
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
-from rotator.sources import Refusal, Source
-from rotator.status import Status
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rotator.faults import Missing
-from rotator.orders import Aim, Order, Stop
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.dcu1 import VERBS, Command, Dcu1Session, azimuth_reply, encode, parse, tenths_reply
 from rotator.protocols.session import Session
 

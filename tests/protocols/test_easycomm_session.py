@@ -9,8 +9,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator import __version__
-from rotator.faults import Missing
-from rotator.orders import Aim, Jog, Order, Park, Stop
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Jog, Order, Park, Stop
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.session import Session

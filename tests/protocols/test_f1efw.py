@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
-from rotator.orders import Aim
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.session import Session
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, LoadTimed
+from rotator.exchange.orders import Aim, LoadTimed
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
-from rotator.orders import Aim, Calibrate, Jog, Order, Speed, Stop
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Calibrate, Jog, Order, Speed, Stop
+from rotator.exchange.sources import Source
 from rotator.protocols.gs232 import MAX_LINE, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
-from rotator.sources import Source
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

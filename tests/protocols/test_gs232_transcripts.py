@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Order, Speed, Stop
+from rotator.exchange.orders import Aim, Jog, Order, Speed, Stop
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session

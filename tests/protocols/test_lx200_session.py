@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
+from rotator.exchange.orders import Aim, Jog, Order, Park, Stop
 from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.orbits.earth import Site
-from rotator.orders import Aim, Jog, Order, Park, Stop
 from rotator.protocols import lx200
 from rotator.protocols.lx200_session import Lx200Session
 from rotator.protocols.session import Session

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rotator.orders import Aim, Order
+from rotator.exchange.orders import Aim, Order
 from rotator.protocols.macdoppler import MacDopplerSession, SatelliteReport, encode, parse
 
 if TYPE_CHECKING:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from hw.ports import AngleSource
-from rotator.orders import Order
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.move_report import MoveReport
-from rotator.sources import Refusal
-from rotator.status import AxisStatus, Status
 
 
 class Mast:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rotator.orders import Aim, Order, Stop
+from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.n1mm import Go, Halt, N1mmReport, N1mmSession, encode, parse
 
 if TYPE_CHECKING:

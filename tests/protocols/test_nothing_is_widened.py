@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from hw.ports import Axis
 from rotator.assembly.links import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
+from rotator.exchange.orders import Calibrate
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
-from rotator.orders import Calibrate
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
 from tests.search import examples

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rotator.faults import Missing
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Order, Park, Stop
 from rotator.orbits.earth import Site
-from rotator.orders import Aim, Order, Park, Stop
 from rotator.protocols.pstrotator import TAGS, Item, PstRotatorSession, encode, parse
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.orders import Aim, Order, Stop
+from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.pstrotatoraz import MAX_REQUEST, PstRotatorAzSession, encode
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hw.ports import Axis
-from rotator.orders import Aim, Order, Stop
+from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.rc2800 import Command, Rc2800Session, encode, parse
 from rotator.protocols.session import Session
 

@@ -13,13 +13,13 @@ import pytest
 
 from rotator.assembly.links import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal
+from rotator.exchange.status import Status
 from rotator.monitor.transcript import At, LinkNote, Piece, Way, parse
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
-from rotator.orders import Order
 from rotator.protocols.session import Session
-from rotator.sources import Refusal
-from rotator.status import Status
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -13,8 +13,8 @@ import pytest
 
 from hw.ports import Axis
 from rotator import __version__
-from rotator.faults import Missing
-from rotator.orders import Aim, Order, Park, Stop
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Order, Park, Stop
 from rotator.protocols.rotctld import BadRequest, Request, encode, requests
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Order, Park
+from rotator.exchange.orders import Aim, Jog, Order, Park
 from rotator.protocols.rotctld_session import RotctldSession
 from tests.search import examples
 

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
-from rotator.orders import Aim, Jog, Order, Park, Speed, Stop
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Jog, Order, Park, Speed, Stop
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.rotctld_caps import status_words
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.status import AxisStatus, Status
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

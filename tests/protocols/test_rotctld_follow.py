@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.orders import Aim, Order, Park, Stop
+from rotator.exchange.orders import Aim, Order, Park, Stop
+from rotator.exchange.sources import Source
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
-from rotator.sources import Source
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

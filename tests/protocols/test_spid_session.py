@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
-from rotator.orders import Aim, Jog, Order, Stop
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Jog, Order, Stop
 from rotator.protocols.session import Session
 from rotator.protocols.spid import Command, Frame, Model, Turn, encode
 from rotator.protocols.spid_session import SpidSession

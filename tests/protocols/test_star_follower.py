@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis
+from rotator.exchange.orders import Aim, Park, Stop
+from rotator.exchange.sources import Source
 from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.orbits.earth import Site
-from rotator.orders import Aim, Park, Stop
 from rotator.protocols.star_follower import LATE_BEATS, StarFollower
-from rotator.sources import Source
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rotator.exchange.orders import Aim, Stop
 from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.orbits.earth import Site
-from rotator.orders import Aim, Stop
 from rotator.protocols.session import Session
 from rotator.protocols.stellarium import Goto, StellariumSession, decode, encode
 

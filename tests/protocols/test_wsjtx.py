@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 from rotator.protocols.wsjtx import DAY_S, BodyDirection, WsjtxSession, encode, parse
 
 if TYPE_CHECKING:

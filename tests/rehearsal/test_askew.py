@@ -9,9 +9,9 @@ import pytest
 from firmware_sim.clock import SimClock
 from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg
-from rotator.orders import Park
+from rotator.exchange.orders import Park
+from rotator.exchange.sources import Source
 from rotator.rehearsal.plants import BoxPlant
-from rotator.sources import Source
 
 ASKEW = {"ia_deg": 4, "ie_deg": -3, "an_deg": 3, "aw_deg": -2, "ca_deg": 2, "npae_deg": -1.5}
 EXACT = {"rotor": {"type": "moteus"}, "elevation": {"min_deg": -10, "max_deg": 180}}

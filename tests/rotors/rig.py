@@ -24,11 +24,11 @@ from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.orders import Aim, Order
+from rotator.exchange.orders import Aim, Order
+from rotator.exchange.sources import Source
+from rotator.exchange.status import AxisStatus, Status
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 LINK, PERSON = Source("gs232b", 1), Source("console")

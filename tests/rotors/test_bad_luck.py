@@ -11,7 +11,7 @@ from collections.abc import Callable
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Confirm, Home, Jog, RelaysChecked, Stop
+from rotator.exchange.orders import Aim, Confirm, Home, Jog, RelaysChecked, Stop
 from tests.rotors.outcomes import OUTCOMES, REAL_TIME, Outcome, Remedy, plain
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box, Kind
 

@@ -14,10 +14,10 @@ import pytest
 from hw.ports import Axis
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
-from rotator.orders import Aim, Order, Stop
+from rotator.exchange.orders import Aim, Order, Stop
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Status
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.status import Status
 from tests.rotors.outcomes import REAL_TIME
 from tests.rotors.rig import AZ, EL, KINDS, Kind, configured
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from rotator.orders import Aim, Release, Stop
+from rotator.exchange.orders import Aim, Release, Stop
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
 
 ORBIT = next(kind for kind in KINDS if kind.profile == "orbit360")

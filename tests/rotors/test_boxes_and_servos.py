@@ -13,7 +13,7 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.readings import Window
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
-from rotator.faults import FaultKind
+from rotator.exchange.faults import FaultKind
 from rotator.rotors.boxes import ASSUMED, FIRST_READINGS, MOVED_READINGS, UNFED, UNSEEN, UNSEEN_S, BoxRotor, FollowedBox
 from rotator.rotors.servos import ServoRotor
 from tests.rotors.journal import Journal

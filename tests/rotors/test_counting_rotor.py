@@ -10,7 +10,7 @@ import pytest
 
 from firmware_sim.rotors.relay_pulse import SimRelayPulseRotor
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Home, Jog, Stop
+from rotator.exchange.orders import Aim, Home, Jog, Stop
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
 
 NewBox = Callable[..., Box]

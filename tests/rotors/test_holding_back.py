@@ -12,7 +12,7 @@ import pytest
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import Axis, Direction
 from rotator.control.commands import HOLD, Command, Run, Steer
-from rotator.orders import Aim, Jog, Order, Release, Stop
+from rotator.exchange.orders import Aim, Jog, Order, Release, Stop
 from tests.rotors.rig import AZ, EL, PERSON, Box, Kind
 
 MINUS, OFF, PLUS = Direction

@@ -11,7 +11,7 @@ from firmware_sim.rotors.digipot import SimDigipotRotor
 from firmware_sim.rotors.servo import SimServoRotor
 from hw.ports import Direction, HardwareError
 from rotator.control.commands import Steer
-from rotator.orders import Aim, Confirm, Jog, LetGo, Release, Stop
+from rotator.exchange.orders import Aim, Confirm, Jog, LetGo, Release, Stop
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box, Kind
 
 NewBox = Callable[..., Box]

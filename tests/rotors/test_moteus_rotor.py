@@ -20,8 +20,8 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.readings import Condition
 from rotator.control.commands import HOLD, Acknowledge, Place, Steer
 from rotator.control.sky.offsets import Offsets
-from rotator.faults import FaultKind
-from rotator.orders import LetGo
+from rotator.exchange.faults import FaultKind
+from rotator.exchange.orders import LetGo
 from rotator.rotors import moteus as rotors_moteus
 from rotator.rotors.moteus import MoteusRotor
 from tests.interleaved import interleaved

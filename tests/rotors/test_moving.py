@@ -11,8 +11,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.angles import great_circle_deg
-from rotator.orders import Aim, Jog, Park, Release, Stop
-from rotator.status import AxisStatus
+from rotator.exchange.orders import Aim, Jog, Park, Release, Stop
+from rotator.exchange.status import AxisStatus
 from tests.rotors.rig import AZ, EL, LINK, PERSON, Box, Kind, all_but, configured
 
 MINUS, OFF, PLUS = Direction

@@ -14,7 +14,7 @@ from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from hw.safety.guard import GUARD_THREAD
 from rotator.control.commands import HOLD, Acknowledge, Place, Run, Steer
 from rotator.control.sky.offsets import Offsets
-from rotator.orders import LetGo
+from rotator.exchange.orders import LetGo
 from rotator.rotors.common import no_switches
 from rotator.rotors.positioned import PositionedRotor
 from tests.rotors.journal import Journal

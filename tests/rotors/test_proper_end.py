@@ -14,11 +14,11 @@ from pathlib import Path
 import pytest
 
 from hw.ports import AngleSource, Axis
-from rotator.app import App
 from rotator.assembly.station import Station
+from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.config.model import Config
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 from rotator.rotors.counts_writer import COUNTS_THREAD
 from rotator.store.counts import FILE_NAME, CountsFile, Standing
 from tests.rotors.rig import KINDS, Kind, configured

@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks.sectors import live
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Stop
+from rotator.exchange.orders import Aim, Jog, Stop
 from tests.rotors.rig import Box, Kind
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -8,11 +8,11 @@ from collections.abc import Callable
 import pytest
 
 from hw.ports import AngleSource, Axis, Direction
-from rotator.orders import Home, Jog, LetGo, Stop
+from rotator.exchange.orders import Home, Jog, LetGo, Stop
+from rotator.exchange.status import Status
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.status import Status
 from rotator.views import lcd
 from tests.rotors.rig import AZ, EL, PERSON, Box, Kind
 

@@ -13,14 +13,14 @@ from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.orders import Aim, Calibrate, Jog, Order, Park, Speed, Stop
+from rotator.exchange.orders import Aim, Calibrate, Jog, Order, Park, Speed, Stop
+from rotator.exchange.sources import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.runtime.client import MOST_PER_S, Client, Rights
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 CONFIG = parse("[azimuth]\nmax_deg = 310\n", "bench")
 

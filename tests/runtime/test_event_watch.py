@@ -13,14 +13,14 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.app import App
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
+from rotator.box.app import App
 from rotator.config.load import parse
-from rotator.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode
+from rotator.exchange.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode
+from rotator.exchange.sources import PAGE, Source
 from rotator.runtime.event_watch import LONGEST_S, TICK_S, EventWatch
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import PAGE, Source
 
 PERIOD_S = 0.05
 LINK, PANEL, CONSOLE = Source("gs232b", 1), Source("panel"), Source("console", 1)

@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from firmware_sim.clock import SimClock
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.console_session import report
 from rotator.runtime.journal import Journal
-from rotator.status import AxisStatus, Status
 
 IGNORED = (
     "orders from rotctld#1 are ignored: gs232b#1 has stopped the antenna; orders count again after a pause of 10 s"

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from rotator.exchange.status import Latch
 from rotator.runtime.latch_thread import LatchThread
-from rotator.status import Latch
 from rotator.store.latch import BEFORE, DAMAGED, LatchFile
 from tests.search import some
 

@@ -22,10 +22,10 @@ from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.model import Config
-from rotator.orders import Aim, Jog, Stop
+from rotator.exchange.orders import Aim, Jog, Stop
+from rotator.exchange.sources import Source
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PERIOD_S = 0.05

@@ -16,10 +16,10 @@ from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.calibrating.rig import AxisRig
 from rotator.config.load import parse
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Source
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 
 class Fragile:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from benchmarks.faults import Mast
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Order, Stop
+from rotator.exchange.orders import Aim, Jog, Order, Stop
 
 AZ = Axis.AZIMUTH
 SENSORS = ("azimuth-pot-crackles", "azimuth-pot-spikes", "azimuth-pot-bursts", "adc-noisy", "adc-gaps")

@@ -9,7 +9,7 @@ from benchmarks.faults import Mast
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
 from rotator.config.load import parse
-from rotator.orders import Aim, Jog
+from rotator.exchange.orders import Aim, Jog
 from rotator.rehearsal.flight import fly
 from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
 from rotator.rehearsal.plants import BoxPlant

@@ -16,19 +16,19 @@ import pytest
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, AngleSource, Axis, CharacterDisplay, Direction, HardwareError
 from hw.safety.guard import GUARD_THREAD
-from rotator.app import App, open_station
 from rotator.assembly.kept_files import build_tries_file
+from rotator.box.app import App, open_station
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.faults import FaultKind
+from rotator.exchange.faults import FaultKind
+from rotator.exchange.orders import Jog
+from rotator.exchange.sources import Source
+from rotator.exchange.status import NO_TRIES, Tries
 from rotator.links.wire import LinkError
-from rotator.orders import Jog
 from rotator.runtime.anew import Anew
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
 from rotator.runtime.sensor_thread import SENSORS_THREAD
-from rotator.sources import Source
-from rotator.status import NO_TRIES, Tries
 from tests.boxes import free_port
 
 PATIENCE_S = 60.0

@@ -13,7 +13,7 @@ import pytest
 
 from benchmarks.faults import Mast
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, RelaysChecked, Release, Stop
+from rotator.exchange.orders import Aim, Jog, RelaysChecked, Release, Stop
 from tests.scenario.bad_samples import Case, Truth, tried
 from tests.search import WHOLE
 

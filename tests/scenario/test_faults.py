@@ -13,7 +13,7 @@ import pytest
 
 from benchmarks.faults import DRILLS, MASTER, Drill, Mast, row, strike, worst
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Order, Release, Stop
+from rotator.exchange.orders import Aim, Jog, Order, Release, Stop
 from tests.scenario.false_alarms import NOISY, reported_in_moves
 from tests.search import some
 

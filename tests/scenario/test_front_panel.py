@@ -20,12 +20,12 @@ from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
+from rotator.exchange.sources import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 from tests.search import some
 
 MANUAL, PARK, AUTO, JOG = range(4)

@@ -10,9 +10,9 @@ from firmware_sim.clock import SimClock
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import ConfigError, parse
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 STEP_S = 0.05
 LINES = '[adc]\nkind = "mcp3208"\nazimuth_channel = 6\nelevation_channel = 7\n'

@@ -11,9 +11,9 @@ from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 
 STEP_S = 0.05
 ONE_TURN = """

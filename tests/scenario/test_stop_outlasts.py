@@ -16,10 +16,10 @@ from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.model import Config
-from rotator.orders import Aim, Home, Jog, LoadTimed, Order, Park, Release, Stop
+from rotator.exchange.orders import Aim, Home, Jog, LoadTimed, Order, Park, Release, Stop
+from rotator.exchange.sources import Source
+from rotator.exchange.spoken import held_by, spoken
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
-from rotator.spoken import held_by, spoken
 from rotator.store.latch import LatchFile
 from rotator.views import lcd
 from rotator.views.plain_lines import line

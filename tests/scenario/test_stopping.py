@@ -19,12 +19,12 @@ from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.buses.gpio import holders
 from hw.ports import HardwareError
 from hw.safety.guard import GUARD_THREAD
-from rotator.app import App
 from rotator.assembly.station import Station
+from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.config.model import Config
+from rotator.exchange.orders import Aim
 from rotator.links.wire import Wire
-from rotator.orders import Aim
 from rotator.panel.thread import PANEL_THREADS, PanelOutputs
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.display import DISPLAY_THREAD

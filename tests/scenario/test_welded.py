@@ -12,9 +12,9 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
-from rotator.orders import Aim, Jog, RelaysChecked, Stop
+from rotator.exchange.orders import Aim, Jog, RelaysChecked, Stop
+from rotator.exchange.status import Trust, Trusts
 from rotator.runtime.loop import ControlLoop
-from rotator.status import Trust, Trusts
 from rotator.store.relays import after
 from tests.rotors.rig import KINDS, PERSON, Box, Kind
 

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 
 from rotator.cli.network import Asked, wait_for_the_pc
 from rotator.config.load import SIMULATED, parse, profiles, shipped
+from rotator.exchange.sources import Source
 from rotator.links.addresses import addresses
 from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
 from rotator.setup.network import BEGIN, END, closed, open_to
 from rotator.setup.plan import SetupError
-from rotator.sources import Source
 from tests.setup.conftest import ROTATOR, Card
 
 PORT = 4533

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.status import Latch
+from rotator.exchange.status import Latch
 from rotator.store.latch import DAMAGED, LatchFile
 from rotator.store.whole import NEW
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.faults import FaultKind
-from rotator.status import NO_TRIES, Tries
+from rotator.exchange.faults import FaultKind
+from rotator.exchange.status import NO_TRIES, Tries
 from rotator.store.tries import TriesFile
 from rotator.store.whole import NEW
 

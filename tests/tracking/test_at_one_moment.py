@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 import pytest
 
-from rotator.orders import BOTH, Aim, Mode, Order, SetMode, Stop
-from rotator.sources import TRACKER, Source
+from rotator.exchange.orders import BOTH, Aim, Mode, Order, SetMode, Stop
+from rotator.exchange.sources import TRACKER, Source
 from tests.tracking.tracked_box import Box, pass_of
 
 PC, PANEL = Source("gs232b", 1), Source("panel")

@@ -8,11 +8,11 @@ import pytest
 
 from rotator.assembly.settings import build_mount
 from rotator.config.load import parse
-from rotator.orders import Aim, GiveBack, Order, Release, Stop, Take
+from rotator.exchange.orders import Aim, GiveBack, Order, Release, Stop, Take
+from rotator.exchange.sources import Source
 from rotator.protocols.console import Track
 from rotator.protocols.operating import Operating
 from rotator.runtime.client import Client
-from rotator.sources import Source
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.search import some
 from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Catalogue, Unknown
-from rotator.orders import Aim
 from rotator.tracking.known_sky import KnownSky
 from tests.tracking.tracked_box import ELEMENTS, FEBRUARY_S, Box
 

@@ -6,8 +6,8 @@ import pytest
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.timed_table import TimedTable
-from rotator.orders import Aim, Stop
-from rotator.sources import Source
+from rotator.exchange.orders import Aim, Stop
+from rotator.exchange.sources import Source
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
 

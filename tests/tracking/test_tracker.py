@@ -10,11 +10,11 @@ import math
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.exchange.orders import BOTH, Aim, GiveBack, Jog, LetGo, Mode, Order, Park, Release, SetMode, Stop, Take
+from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, GiveBack, Jog, LetGo, Mode, Order, Park, Release, SetMode, Stop, Take
-from rotator.sources import Source
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
 

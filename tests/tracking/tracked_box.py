@@ -16,14 +16,14 @@ from rotator.assembly.tracking import TrackedBox, wanted_often, why_no_plan
 from rotator.config.load import parse
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass, passes
 from rotator.orbits.targets import find
-from rotator.orders import Order
 from rotator.runtime.loop import ControlLoop
-from rotator.sources import Source
 from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener

@@ -10,10 +10,10 @@ from typing import Any
 from rich.console import Console, RenderableType
 
 from hw.ports import AngleSource, Axis, Direction
-from rotator.faults import Fault, FaultKind, Missing
+from rotator.exchange.faults import Fault, FaultKind, Missing
+from rotator.exchange.orders import Mode
+from rotator.exchange.status import AxisStatus, Status
 from rotator.links.wire import Wire
-from rotator.orders import Mode
-from rotator.status import AxisStatus, Status
 from rotator.views import terminal
 from rotator.views.terminal import Surroundings
 

@@ -13,9 +13,9 @@ from hw.moteus.faults import LIMITS
 from hw.ports import Axis, Direction
 from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.switched import BLIND
-from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.orders import Mode
-from rotator.status import AxisStatus, Flown, Status
+from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
+from rotator.exchange.orders import Mode
+from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.views.lcd import rows
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

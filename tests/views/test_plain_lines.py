@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hw.ports import Axis, Direction
-from rotator.faults import Fault, FaultKind, Missing
+from rotator.exchange.faults import Fault, FaultKind, Missing
+from rotator.exchange.status import AxisStatus, Status
 from rotator.links.wire import Wire
-from rotator.status import AxisStatus, Status
 from rotator.views import plain_lines
 
 STATUS = Status(

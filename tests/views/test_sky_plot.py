@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotator.control.sky.mount import Mount, Range, Sector
-from rotator.status import AxisStatus, Status
+from rotator.exchange.status import AxisStatus, Status
 from rotator.views.sky_plot import ANTENNA, BOTH, TARGET, Trail, direction, off_deg, plot
 from tests.search import examples
 

@@ -13,9 +13,9 @@ from rich.text import Text
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.mount import Mount, Range, Sector
-from rotator.faults import Fault, FaultKind, Missing, Notice
+from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
+from rotator.exchange.status import AxisStatus, Status
 from rotator.links.wire import Wire
-from rotator.status import AxisStatus, Status
 from rotator.views import frame, terminal
 from rotator.views.words import release
 from tests.search import examples

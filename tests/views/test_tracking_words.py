@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.protocols.console_session import report
-from rotator.status import AxisStatus, Flown, Status
 from rotator.views.lcd import rows as lcd_rows
 from rotator.views.words import headline, orders_from
 

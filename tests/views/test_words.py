@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from hw.ports import Axis
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
+from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.protocols.console_session import report
-from rotator.status import AxisStatus, Flown, Status
 from rotator.views.plain_lines import line
 from rotator.views.words import orders_from, release
 from tests.views.screens import ASLEEP, show

@@ -14,8 +14,8 @@ import aiohttp
 import pytest
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
-from rotator.app import App
 from rotator.assembly.tracking import build_tracking
+from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.monitor.tap import Tap
 from rotator.runtime.anew import Anew

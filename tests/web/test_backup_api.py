@@ -9,7 +9,8 @@ from collections.abc import Callable
 from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 
-from rotator.backup import CONFIGURATION, MOST_BYTES, WAITING
+from rotator.backup.content import CONFIGURATION, MOST_BYTES
+from rotator.backup.restore import WAITING
 from tests.web.conftest import Box
 
 Start = Callable[..., AbstractAsyncContextManager[Box]]

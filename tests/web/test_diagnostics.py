@@ -18,9 +18,9 @@ import hypothesis.strategies as st
 from hypothesis import given
 
 from rotator.config.load import parse
+from rotator.exchange.sources import Source
+from rotator.exchange.status import AxisStatus, Status
 from rotator.monitor.transcript import Way, encode_piece
-from rotator.sources import Source
-from rotator.status import AxisStatus, Status
 from rotator.web.diagnostics import Known, diagnostics
 from rotator.web.redaction import Redaction, secrets_of, spellings_of_place
 from tests.web.conftest import Box

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hw.ports import Axis, Direction
-from rotator.orders import Jog
+from rotator.exchange.orders import Jog
 from rotator.web.holding import LEASE_S, Holding, Pictures
 
 

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 from contextlib import AbstractAsyncContextManager
 
-from rotator.orders import Mode
+from rotator.exchange.orders import Mode
 from tests.web.conftest import Box
 
 Start = Callable[..., AbstractAsyncContextManager[Box]]

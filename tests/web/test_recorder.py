@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from hw.ports import Direction
-from rotator.flight_order import AxisPlan, Fly
-from rotator.status import AxisStatus, Flown, Status
+from rotator.exchange.flight_order import AxisPlan, Fly
+from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.views.pass_svg import Flown as Drawn
 from rotator.views.pass_svg import draw
 from rotator.web.flown import policy

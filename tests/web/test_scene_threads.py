@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import AngleSource
-from rotator.flight_order import AxisPlan, Fly
-from rotator.orders import Order, Stop
-from rotator.status import AxisStatus, Status
+from rotator.exchange.flight_order import AxisPlan, Fly
+from rotator.exchange.orders import Order, Stop
+from rotator.exchange.status import AxisStatus, Status
 from rotator.web import scene
 from rotator.web.scene import Scene
 from tests.interleaved import interleaved

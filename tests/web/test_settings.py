@@ -12,9 +12,9 @@ import aiohttp
 import pytest
 
 from rotator.config.load import load
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Latch
 from rotator.runtime.anew import Anew
-from rotator.sources import Source
-from rotator.status import Latch
 from rotator.web.settings import MOST_BODY
 from tests.web.conftest import PATIENCE_S, Box
 

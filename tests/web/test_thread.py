@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.app import App
+from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.runtime.event_watch import EventWatch
 from rotator.store.paired import FILE_NAME

@@ -13,11 +13,11 @@ from typing import Any
 import aiohttp
 import pytest
 
+from rotator.exchange.sources import Source
+from rotator.exchange.status import AxisStatus, Status
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap
 from rotator.monitor.transcript import Piece, Way, parse
-from rotator.sources import Source
-from rotator.status import AxisStatus, Status
 from rotator.web.wire_watch import MOST_WATCHERS
 from rotator.web.wires import LONGEST_LINE, MOST_LINES, WireLog
 from tests.web.conftest import PATIENCE_S, Box

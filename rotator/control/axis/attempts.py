@@ -12,8 +12,8 @@ from rotator.control.axis.met_stops import MetStops
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.short_runs import STANDING_FAULTS, ShortRuns
 from rotator.control.sky.mount import Range
-from rotator.faults import POT, Fault, FaultKind, Notice
-from rotator.status import NO_TRIES, Tries
+from rotator.exchange.faults import POT, Fault, FaultKind, Notice
+from rotator.exchange.status import NO_TRIES, Tries
 
 
 class Attempts:

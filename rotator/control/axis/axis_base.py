@@ -15,8 +15,8 @@ from rotator.control.axis.readings import NORMAL
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import AxisSettings
 from rotator.control.sky.goal import AimGoal
-from rotator.faults import Fault, Missing, Notice
-from rotator.status import AxisStatus
+from rotator.exchange.faults import Fault, Missing, Notice
+from rotator.exchange.status import AxisStatus
 
 Settings = TypeVar("Settings", bound=AxisSettings)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from rotator.faults import Notice
+from rotator.exchange.faults import Notice
 
 LOOKED_AT = 100
 """Number of latest readings that count: five seconds at 20 Hz, two at 50 Hz."""

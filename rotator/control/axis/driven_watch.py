@@ -9,7 +9,7 @@ from hw.ports import Direction
 from rotator.control.axis.observed_motion import ObservedMotion, SpeedWindow
 from rotator.control.axis.run_watch import endless
 from rotator.control.axis.trend import Slope
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 STANDING_WINDOW = SpeedWindow(1.4, 1.5, 4.0)
 STANDING_SHARE, SLOW_STANDING_SHARES = 0.25, (0.5, 0.4)

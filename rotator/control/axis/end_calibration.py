@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from rotator.control.axis.calibration_table import Calibration, between_ends
 from rotator.control.sky.mount import Range
-from rotator.faults import Missing
+from rotator.exchange.faults import Missing
 
 BEYOND_DEG = 1.0
 """An axis may stand this far beyond its calibrated ends, by its coast and the noise of its sensor."""

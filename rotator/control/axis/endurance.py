@@ -5,7 +5,7 @@ Knows when the motor ran. Knows no temperature: there is no sensor for it. Does 
 
 from __future__ import annotations
 
-from rotator.faults import Notice
+from rotator.exchange.faults import Notice
 
 RESUME = 0.5
 """A motor that had to rest may run again when it has cooled to this share, after half of its rest."""

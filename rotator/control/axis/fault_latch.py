@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import replace
 
-from rotator.faults import POT, Fault
+from rotator.exchange.faults import POT, Fault
 
 TRIES = 3
 TRIES_WITHIN_S = 600.0

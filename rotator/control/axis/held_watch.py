@@ -9,7 +9,7 @@ from __future__ import annotations
 from hw.ports import Axis
 from rotator.control.axis.relay_faults import WAYS, unstoppable
 from rotator.control.axis.trend import Trend
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 COASTS_S = 1.0
 """A box may turn on for this long after its last order: its relay, its coast, and the step of a stop."""

@@ -18,8 +18,8 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
-from rotator.faults import Fault, Notice
-from rotator.status import Trusts
+from rotator.exchange.faults import Fault, Notice
+from rotator.exchange.status import Trusts
 
 
 class MotionWatch:

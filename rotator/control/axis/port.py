@@ -13,8 +13,8 @@ from rotator.control.axis.readings import Reading
 from rotator.control.commands import Command, Decision, Steer
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
-from rotator.faults import Fault, Missing, Notice
-from rotator.status import AxisStatus
+from rotator.exchange.faults import Fault, Missing, Notice
+from rotator.exchange.status import AxisStatus
 
 
 class ControlledAxis(Protocol):

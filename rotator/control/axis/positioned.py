@@ -28,8 +28,8 @@ from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.faults import Fault, FaultKind, Notice
-from rotator.status import AxisStatus, Tries
+from rotator.exchange.faults import Fault, FaultKind, Notice
+from rotator.exchange.status import AxisStatus, Tries
 
 
 class PositionedAxis(AxisBase[PositionedSettings]):

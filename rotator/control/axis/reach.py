@@ -17,7 +17,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 FASTER_THAN_FILE, FASTER_THAN_LEARNT = 1.5, 1.2
 """How many times faster a motor may be than the file says, or than its runs have shown."""

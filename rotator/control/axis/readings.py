@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 from hw.ports import Direction
-from rotator.faults import Fault, Notice
+from rotator.exchange.faults import Fault, Notice
 
 
 @dataclass(frozen=True, slots=True)

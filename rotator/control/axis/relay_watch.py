@@ -12,8 +12,8 @@ from hw.ports import Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_state import RelayState
-from rotator.faults import Fault, Notice
-from rotator.status import Trusts
+from rotator.exchange.faults import Fault, Notice
+from rotator.exchange.status import Trusts
 
 
 class RelayWatch(Protocol):

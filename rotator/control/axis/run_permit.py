@@ -18,7 +18,7 @@ from rotator.control.axis.relay_trust import BOTH_WAYS
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
 from rotator.control.sky.mount import Range
-from rotator.faults import Fault, Notice
+from rotator.exchange.faults import Fault, Notice
 
 LAPSED_S = 1.0
 """After a late cycle the relay stays open this long, so that a slow computer does not make the relay chatter."""

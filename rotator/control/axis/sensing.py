@@ -14,7 +14,7 @@ from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY, BadReadings
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.sparks import SeenAt, Sparks
-from rotator.faults import Fault, FaultKind, Notice
+from rotator.exchange.faults import Fault, FaultKind, Notice
 
 BAD_FOR_S = 0.09
 """Bad readings are a fault after this time (the third one in a row at 20 Hz, the sixth at 50 Hz)."""

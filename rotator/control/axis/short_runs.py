@@ -13,7 +13,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.smoothing import SETTLES_S, Smoothed
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 MOVED_DEG, MOVED_NOISES = 0.3, 2.5
 """An axis has moved when it is further from where it stood than both."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 from hw.ports import Axis
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 SILENT_PERIODS = 3.0
 """An axis does not turn if it was driven one way for this many periods in all without a change of its contact."""

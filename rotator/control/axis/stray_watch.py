@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from hw.ports import Axis
 from rotator.control.axis.vain_moves import LeftBehind, VainMoves
 from rotator.control.commands import Steer
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 STRAY_DEG, STRAY_S = 5.0, 1.7
 """An axis does not follow if it is this far from where it was sent, and does not come nearer for this long."""

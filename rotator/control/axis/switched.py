@@ -29,8 +29,8 @@ from rotator.control.refused import Refused
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.status import AxisStatus
+from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
+from rotator.exchange.status import AxisStatus
 
 ABOUT_DEG = 0.5
 """Scatter of the readings at rest."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.smoothing import SETTLES_S, Smoothed
-from rotator.faults import Notice
+from rotator.exchange.faults import Notice
 
 ENOUGH, ENOUGH_S = 3, 1.0
 """It is pressed in vain after this many presses in a row, and this time in all, that did not move it."""

@@ -17,7 +17,7 @@ from rotator.control.sky.pointing import LEAST_WEIGHT
 from rotator.control.sky.route import STEP_S, Speeds, Way
 from rotator.control.sky.steps import Trail, best_steps
 from rotator.control.sky.ways import Leg, Route, best_route
-from rotator.flight_order import PLAN_STEP_S, AxisPlan, Fly, Step
+from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly, Step
 
 PRICE = 2.9
 """Degrees squared times seconds that a start is worth, for a tolerance of one degree; it grows with the cube."""

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from rotator.control.sky.angles import ZENITH_DEG, Coordinates
 from rotator.control.sky.mount import Mount
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 
 
 def joined(mount: Mount, aim: Aim, wanted: Coordinates, axes: Coordinates) -> Aim:

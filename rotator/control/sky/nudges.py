@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from hw.ports import Axis
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 
 
 class Nudges:

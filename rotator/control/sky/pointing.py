@@ -16,7 +16,7 @@ from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
 from rotator.control.sky.track import Track
 from rotator.control.sky.turns import Swings
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 
 PLAN_EVERY_S = 0.5
 ROUTE_EVERY_S = 3.0

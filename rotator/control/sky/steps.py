@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
-from rotator.flight_order import PLAN_STEP_S, Step
+from rotator.exchange.flight_order import PLAN_STEP_S, Step
 
 LONGEST_S = 240.0
 """No piece of the curve is longer. A motor that stands for longer gets two steps with the same place."""

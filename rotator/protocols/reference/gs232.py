@@ -6,13 +6,13 @@ Knows Markdown and one example of each command. Does not know what any command d
 from __future__ import annotations
 
 from rotator import __version__
-from rotator.orders import Order
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols import gs232, rotctld, rotctld_earth
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.sources import Refusal
-from rotator.status import AxisStatus, Status
 
 AZIMUTH_DEG, ELEVATION_DEG = 235.0, 25.0
 LONGEST_SHOWN = 40

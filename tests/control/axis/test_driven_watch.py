@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Direction
-from rotator.faults import FaultKind
+from rotator.exchange.faults import FaultKind
 from tests.control.axis.watched_motor import WatchedMotor
 
 MINUS, OFF, PLUS = Direction

@@ -7,7 +7,7 @@ import pytest
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.sky.mount import Range
-from rotator.faults import Missing
+from rotator.exchange.faults import Missing
 
 RANGE = Range(-10.0, 440.0)
 EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)

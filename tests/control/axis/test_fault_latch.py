@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hw.ports import Axis
 from rotator.control.axis.fault_latch import TRIES, FaultLatch
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 STANDS = Fault(FaultKind.STANDS_STILL, Axis.AZIMUTH, "0.0° in 1 s")
 JUMPS = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "3 jumps")

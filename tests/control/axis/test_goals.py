@@ -7,7 +7,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import LONGEST_WAIT_S, JogGoal, jog
 from rotator.control.axis.relay_faults import limit_reached
-from rotator.faults import FaultKind
+from rotator.exchange.faults import FaultKind
 
 MINUS, OFF, PLUS = Direction
 

@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis
 from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.trend import Trend
-from rotator.faults import Fault
+from rotator.exchange.faults import Fault
 
 CYCLE_S = 0.05
 BOX_DPS = 6.0

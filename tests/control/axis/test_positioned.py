@@ -15,7 +15,7 @@ from rotator.control.commands import HOLD, Steer
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import OFFSETS_S, Path
-from rotator.faults import FaultKind, Missing
+from rotator.exchange.faults import FaultKind, Missing
 
 LEASE_S = 0.25
 STEP_S = 0.02

@@ -10,7 +10,7 @@ from rotator.control.commands import HOLD, Steer
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.faults import FaultKind, Missing, Notice
+from rotator.exchange.faults import FaultKind, Missing, Notice
 from tests.control.axis.test_positioned import LEASE_S, STEP_S, Motor, path
 
 MINUS, OFF, PLUS = Direction

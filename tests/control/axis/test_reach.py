@@ -19,7 +19,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05

@@ -16,8 +16,8 @@ from rotator.control.axis.run_permit import LAPSED_S, RunPermit, at_ends
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
-from rotator.faults import Fault, FaultKind
-from rotator.status import Trust
+from rotator.exchange.faults import Fault, FaultKind
+from rotator.exchange.status import Trust
 
 MINUS, OFF, PLUS = Direction
 LEASE_S = 0.25

@@ -10,8 +10,8 @@ from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
-from rotator.faults import Fault
-from rotator.status import ALL_OPEN
+from rotator.exchange.faults import Fault
+from rotator.exchange.status import ALL_OPEN
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

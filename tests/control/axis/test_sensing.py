@@ -10,7 +10,7 @@ from hw.ports import Axis
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.readings import ANYTHING, Reading, Window
 from rotator.control.axis.sensing import BAD_FOR_S, JUMPED, JUMPED_SHOWN_S, STALE_S, Sensing
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 
 HALF_CIRCLE = Calibration(((0.05, 0.0), (0.95, 180.0)))
 STEP_S = 0.05

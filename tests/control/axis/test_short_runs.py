@@ -8,7 +8,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.short_runs import LEAST_RUN_S, STOOD_STARTS, ShortRuns
-from rotator.faults import Fault, FaultKind
+from rotator.exchange.faults import Fault, FaultKind
 from tests.control.axis.switch import Switch
 
 STEP_S = 0.05

@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis
 from rotator.control.axis.stray_watch import STRAY_DEG, StrayWatch
 from rotator.control.commands import Steer
-from rotator.faults import Fault
+from rotator.exchange.faults import Fault
 
 STEP_S = 0.05
 

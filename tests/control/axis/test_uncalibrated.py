@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
-from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, Release, RunTimed, Stop
-from rotator.sources import Source
+from rotator.exchange.faults import Missing
+from rotator.exchange.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, Release, RunTimed, Stop
+from rotator.exchange.sources import Source
 from tests.search import some
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -9,9 +9,9 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.nudges import Nudges
-from rotator.flight_order import AxisPlan, Fly, Step
-from rotator.orders import Aim, Jog, Mode, Nudge, Park, Release, SetMode, Stop
-from rotator.sources import Source
+from rotator.exchange.flight_order import AxisPlan, Fly, Step
+from rotator.exchange.orders import Aim, Jog, Mode, Nudge, Park, Release, SetMode, Stop
+from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 OFF = Direction.OFF

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.route import Speeds
-from rotator.orders import Aim
+from rotator.exchange.orders import Aim
 from tests.search import examples
 
 SPEEDS = Speeds(6.0, 2.7)

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.control.sky.steps import Trail, best_steps
-from rotator.flight_order import PLAN_STEP_S, Step
+from rotator.exchange.flight_order import PLAN_STEP_S, Step
 
 FAST_DPS = 1e6
 SHORT = st.lists(st.floats(-20, 20), min_size=2, max_size=8)

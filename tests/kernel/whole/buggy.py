@@ -14,8 +14,8 @@ from typing import Any
 
 from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
-from rotator.app import App
 from rotator.assembly.station import Station
+from rotator.box.app import App
 from rotator.config.load import load
 from rotator.rotors.relays import RelayRotor
 

@@ -9,11 +9,11 @@ import pytest
 
 from rotator.assembly.links import session_maker
 from rotator.config.links import Link, ProtocolName
+from rotator.exchange.orders import Order
+from rotator.exchange.status import AxisStatus, Status
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
-from rotator.orders import Order
 from rotator.protocols.reference.programs import PROGRAMS, Program, programs_table
-from rotator.status import AxisStatus, Status
 
 PAGE = Path(__file__).parents[3] / "docs" / "reference" / "programs.md"
 PLACES: dict[str, dict[str, str]] = {

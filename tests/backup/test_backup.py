@@ -13,8 +13,9 @@ import hypothesis.strategies as st
 import pytest
 from hypothesis import given
 
-from rotator import backup
-from rotator.backup import ABOUT, BEFORE, CONFIGURATION, FAILED, FORM, UNDER_WAY, WAITING, BackupError
+from rotator import store
+from rotator.backup.content import ABOUT, CHECKS, CONFIGURATION, FORM, BackupError, check, pack
+from rotator.backup.restore import BEFORE, FAILED, UNDER_WAY, WAITING, complete, stage
 from rotator.config.load import parse
 from rotator.store import compass, knobs, latch, learnt, priorities, relays, tries
 from rotator.store.whole import write_whole
@@ -47,7 +48,7 @@ class Station:
         (self.folder / knobs.FILE_NAME).write_text(kept, encoding="utf-8")
 
     def packed(self) -> bytes:
-        return backup.pack(self.path, parse(self.path.read_text(), "test"), 0.0)
+        return pack(self.path, parse(self.path.read_text(), "test"), 0.0)
 
     def everything(self) -> dict[str, str]:
         files = (each for each in self.folder.iterdir() if not each.name.endswith((WAITING, UNDER_WAY, FAILED, BEFORE)))
@@ -75,28 +76,28 @@ def test_what_was_saved_comes_back_with_its_comments_and_what_was_there_is_kept(
     kept, saved = station.everything(), station.packed()
     station.write(360, OTHER_KNOBS)
     changed = station.everything()
-    backup.stage(station.path, saved)
+    stage(station.path, saved)
     assert station.everything() == changed, "the running box is left alone"
-    assert backup.complete(station.path, 0.0)
+    assert complete(station.path, 0.0)
     assert station.everything() == kept
-    assert not backup.complete(station.path, 0.0), "once"
-    backup.stage(station.path, (station.folder / f"station.toml{BEFORE}").read_bytes())
-    assert backup.complete(station.path, 0.0)
+    assert not complete(station.path, 0.0), "once"
+    stage(station.path, (station.folder / f"station.toml{BEFORE}").read_bytes())
+    assert complete(station.path, 0.0)
     assert station.everything() == changed, "and back again"
 
 
 def test_a_start_without_a_backup_that_waits_changes_nothing(station: Station) -> None:
     kept = station.everything()
-    assert not backup.complete(station.path, 0.0)
-    assert not backup.complete(station.folder / "not there.toml", 0.0)
+    assert not complete(station.path, 0.0)
+    assert not complete(station.folder / "not there.toml", 0.0)
     assert station.everything() == kept
 
 
 def test_another_pi_gets_the_whole_box(station: Station, tmp_path: Path) -> None:
     saved, new = station.packed(), tmp_path / "new.toml"
     new.write_text("this card has a file that cannot be used", encoding="utf-8")
-    backup.stage(new, saved)
-    assert backup.complete(new, 0.0)
+    stage(new, saved)
+    assert complete(new, 0.0)
     assert new.read_text() == station.path.read_text()
 
 
@@ -150,9 +151,9 @@ def test_what_is_no_backup_of_this_program_is_refused_with_a_sentence_and_change
     kept = station.everything()
     data, says = BAD[name]
     with pytest.raises(BackupError) as refused:
-        backup.stage(station.path, data)
+        stage(station.path, data)
     assert says in str(refused.value)
-    assert not backup.complete(station.path, 0.0)
+    assert not complete(station.path, 0.0)
     assert station.everything() == kept
 
 
@@ -160,7 +161,7 @@ def test_one_name_twice_is_refused() -> None:
     with pytest.warns(UserWarning, match="Duplicate name"):
         data = zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (CONFIGURATION, "[page]\n"))
     with pytest.raises(BackupError, match=r"it holds 'rotator\.toml'"):
-        backup.check(data)
+        check(data)
 
 
 @pytest.mark.parametrize("packing", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
@@ -172,7 +173,7 @@ def test_another_packing_is_refused_damaged_or_not(packing: int) -> None:
     whole = packed.getvalue()
     for data in (whole, whole.replace(whole[60:70], b"\xff" * 10)):
         with pytest.raises(BackupError, match=f"{ABOUT} is packed in another way"):
-            backup.check(data)
+            check(data)
 
 
 def test_a_bomb_that_lies_about_its_size_is_not_unpacked() -> None:
@@ -180,7 +181,7 @@ def test_a_bomb_that_lies_about_its_size_is_not_unpacked() -> None:
     for at in (data.rindex(b"PK\x01\x02") + 24, data.rindex(b"PK\x03\x04") + 22):
         struct.pack_into("<I", data, at, 10)
     with pytest.raises(BackupError):
-        backup.check(bytes(data))
+        check(bytes(data))
 
 
 @given(st.data())
@@ -192,7 +193,7 @@ def test_a_damaged_backup_is_refused_or_whole(data: st.DataObject) -> None:
         whole[data.draw(st.integers(0, len(whole) - 1))] = data.draw(st.integers(0, 255))
     cut = whole[: data.draw(st.integers(0, len(whole)))] if data.draw(st.booleans()) else whole
     try:
-        found = backup.check(bytes(cut))
+        found = check(bytes(cut))
     except BackupError:
         return
     assert found.config.azimuth.max_deg == 400
@@ -210,7 +211,7 @@ def test_after_a_power_cut_at_any_step_the_next_start_has_the_new_box_and_the_ol
         new, saved = station.everything(), station.packed()
         station.write(360, OTHER_KNOBS)
         old = station.everything()
-        backup.stage(station.path, saved)
+        stage(station.path, saved)
         steps = iter(range(9))
 
         def cut(path: Path, content: str | bytes, at: int = cut_at, steps: Iterator[int] = steps) -> None:
@@ -219,12 +220,12 @@ def test_after_a_power_cut_at_any_step_the_next_start_has_the_new_box_and_the_ol
             write_whole(path, content)
 
         try:
-            backup.complete(station.path, 0.0, cut)
+            complete(station.path, 0.0, cut)
         except PowerCut:
             outcomes.add(cut_at)
-        backup.complete(station.path, 0.0)
+        complete(station.path, 0.0)
         assert station.everything() == new
-        before = backup.check((station.folder / f"station.toml{BEFORE}").read_bytes())
+        before = check((station.folder / f"station.toml{BEFORE}").read_bytes())
         assert before.text == old["station.toml"]
         assert before.parts[knobs.FILE_NAME] == OTHER_KNOBS
     assert outcomes == {0, 1, 2}, "the backup of what is there, the knobs, the configuration"
@@ -234,16 +235,16 @@ def test_a_disk_that_is_full_leaves_the_old_box(station: Station, caplog: pytest
     saved = station.packed()
     station.write(360, OTHER_KNOBS)
     old = station.everything()
-    backup.stage(station.path, saved)
+    stage(station.path, saved)
     # A folder in the way of the new file: it cannot be written, as on a full disk.
     (station.folder / "station.toml.new").mkdir()
     try:
-        assert not backup.complete(station.path, 0.0)
+        assert not complete(station.path, 0.0)
     finally:
         (station.folder / "station.toml.new").rmdir()
     assert station.everything() == old
     assert "not restored, the box is as it was" in caplog.text
-    assert not backup.complete(station.path, 0.0), "it is not tried for ever"
+    assert not complete(station.path, 0.0), "it is not tried for ever"
     assert (station.folder / f"station.toml{FAILED}").exists()
 
 
@@ -257,7 +258,7 @@ def test_what_the_motors_taught_and_the_compass_found_go_along(station: Station)
     }
     for name, (text, _) in texts.items():
         (station.folder / name).write_text(text, encoding="utf-8")
-    found = backup.check(station.packed())
+    found = check(station.packed())
     for name, (text, decode) in texts.items():
         assert decode(found.parts[name]) == decode(text)
     assert FORM.today == "rotator backup 1"
@@ -265,8 +266,6 @@ def test_what_the_motors_taught_and_the_compass_found_go_along(station: Station)
 
 def test_no_file_of_a_backup_has_a_second_place_in_memory_that_would_win_over_it() -> None:
     spared = {latch.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME}
-    users = [
-        path.stem for path in (Path(backup.__file__).parent / "store").glob("*.py") if "SparedFile(" in path.read_text()
-    ]
+    users = [path.stem for path in Path(store.__file__).parent.glob("*.py") if "SparedFile(" in path.read_text()]
     assert {f"{name}.json" for name in users} - {"spared.json"} == spared
-    assert not spared & set(backup.CHECKS)
+    assert not spared & set(CHECKS)

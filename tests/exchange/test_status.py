@@ -8,7 +8,9 @@ from collections.abc import Callable
 
 import pytest
 
-from rotator.orders import Order
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
@@ -16,8 +18,6 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
-from rotator.sources import Refusal
-from rotator.status import AxisStatus, Status
 
 
 class Standing:

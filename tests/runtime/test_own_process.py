@@ -9,7 +9,7 @@ import time
 
 import pytest
 
-from rotator.own_process import OwnProcess
+from rotator.runtime.own_process import OwnProcess
 
 
 def test_it_answers_from_another_process_and_raises_what_the_job_raises() -> None:

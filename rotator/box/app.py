@@ -30,12 +30,15 @@ from rotator.calibrating.at_start import watch_at_start
 from rotator.calibrating.stops import only_stops
 from rotator.config.model import Config
 from rotator.config.places import console_path, memory_folder, monitor_path
+from rotator.exchange.orders import Take
+from rotator.exchange.sources import KEYBOARD, Source
+from rotator.exchange.spoken import held_by
+from rotator.exchange.status import NO_TRIES
 from rotator.links.console import ConsoleSocket
 from rotator.links.wire import LinkError, Wire
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
 from rotator.mqtt.build import build_mqtt
-from rotator.orders import Take
 from rotator.protocols.console_session import ConsoleSession
 from rotator.runtime.anew import Anew
 from rotator.runtime.autosave import Autosave
@@ -48,9 +51,6 @@ from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.latch_thread import TRIES_THREAD, LatchThread
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
-from rotator.sources import KEYBOARD, Source
-from rotator.spoken import held_by
-from rotator.status import NO_TRIES
 from rotator.store import counts
 from rotator.store.tries import NOTHING
 from rotator.views import lcd

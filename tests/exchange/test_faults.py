@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis
-from rotator.faults import Fault, FaultKind, Missing
-from rotator.orders import Order
+from rotator.exchange.faults import Fault, FaultKind, Missing
+from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal
+from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
-from rotator.sources import Refusal
-from rotator.status import AxisStatus, Status
 
 EACH = pytest.mark.parametrize("kind", FaultKind, ids=lambda kind: kind.text)
 FAULT_BIT = 8

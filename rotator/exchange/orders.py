@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Axis, Direction
-from rotator.flight_order import Fly
+from rotator.exchange.flight_order import Fly
 
 BOTH = (Axis.AZIMUTH, Axis.ELEVATION)
 

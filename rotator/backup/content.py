@@ -1,8 +1,7 @@
-"""A backup of the box: its configuration and what it has learnt, in one file; and the way back.
+"""What a backup of the box holds: its configuration and what it has learnt, in one file; and the check of it.
 
-A restored backup is checked, then waits beside the configuration until the box starts again. Then all of it is put in
-place before anything is loaded, and the old files are kept as a backup of their own. A power cut at any time leaves the
-old box or the new one. Knows which files belong to a backup, and how each is checked.
+Knows which files belong to a backup, and how each is checked. Does not know how a backup is put in place: `restore`
+does.
 
 Left out on purpose: counts, because the antenna has moved since; doubts about relays, because a relay does not mend
 itself; pairings, because a revoked pairing must stay revoked.
@@ -12,7 +11,6 @@ from __future__ import annotations
 
 import io
 import json
-import logging
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
@@ -27,9 +25,6 @@ from rotator.config.model import Config
 from rotator.store import compass, knobs, learnt, priorities
 from rotator.store.forms import Form, LaterFormError
 from rotator.store.plain import read_plain
-from rotator.store.whole import write_whole
-
-log = logging.getLogger(__name__)
 
 FORM = Form("rotator backup")
 ABOUT, CONFIGURATION, LEARNT = "backup.json", "rotator.toml", "state.json"
@@ -42,10 +37,6 @@ CHECKS: Mapping[str, Callable[[str], object]] = {
 """The files that may be in it beside the configuration. Each check raises ValueError."""
 MOST_BYTES = 1_000_000
 LARGEST_PART = 300_000
-WAITING, UNDER_WAY, FAILED, BEFORE = ".restore", ".restoring", ".restore-failed", ".before-restore.zip"
-"""The endings of the names beside the configuration's."""
-
-Write = Callable[[Path, str | bytes], None]
 
 
 class BackupError(ValueError):
@@ -73,7 +64,7 @@ def pack(path: Path, config: Config | None, utc_s: float) -> bytes:
     if config is not None:
         for name in CHECKS:
             with suppress(OSError):  # this box has learnt nothing of it
-                texts[name] = read_plain(_place(config, name))
+                texts[name] = read_plain(place(config, name))
     made = datetime.fromtimestamp(utc_s, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     about = {"format": FORM.today, "made": made, "program": __version__}
     packed = io.BytesIO()
@@ -111,84 +102,10 @@ def check(data: bytes) -> Backup:
     )
 
 
-def stage(path: Path, data: bytes) -> None:
-    """Have the next start restore this backup. Raises BackupError, OSError: then nothing has changed."""
-    check(data)
-    write_whole(_beside(path, WAITING), data)
-
-
-def complete(path: Path, utc_s: float, write: Write = write_whole) -> bool:
-    """At the start, before anything is loaded: put in place what waits. Returns whether something was restored.
-
-    Raises nothing: a box that cannot restore starts as it was, and says so.
-    """
-    waiting, under_way = _beside(path, WAITING), _beside(path, UNDER_WAY)
-    source = under_way if under_way.exists() else waiting
-    try:
-        data = read_plain(source)
-    except FileNotFoundError:
-        return False
-    except OSError as fault:
-        log.error("%s: not restored: %s", source, fault)
-        return False
-    try:
-        backup = check(data)
-        if source is waiting:
-            write(_beside(path, BEFORE), pack(path, _usable(path), utc_s))
-            # From here on a power cut leads to the new box, and the old one is whole in its backup.
-            waiting.replace(under_way)
-        _put(path, backup, write)
-        under_way.unlink()
-    except (BackupError, OSError) as fault:
-        log.error("%s: not restored, the box is as it was: %s", source, fault)
-        with suppress(OSError):
-            _give_up(path)
-        return False
-    log.warning("%s: restored from the backup of %s; %s%s has what was there", path, backup.made, path.name, BEFORE)
-    return True
-
-
-def _put(path: Path, backup: Backup, write: Write) -> None:
-    """All of it, or nothing. Raises OSError."""
-    files = {_place(backup.config, name): text for name, text in backup.parts.items()}
-    before: dict[Path, bytes | None] = {}
-    try:
-        # The configuration last: it decides which box starts.
-        for file, text in (*files.items(), (path, backup.text)):
-            file.parent.mkdir(parents=True, exist_ok=True)
-            before[file] = read_plain(file) if file.exists() else None
-            write(file, text)
-    except OSError:
-        for file, old in before.items():
-            if old is None:
-                file.unlink(missing_ok=True)
-            else:
-                write(file, old)
-        raise
-
-
-def _give_up(path: Path) -> None:
-    """It is not tried at each start."""
-    for ending in (WAITING, UNDER_WAY):
-        with suppress(FileNotFoundError):
-            _beside(path, ending).replace(_beside(path, FAILED))
-
-
-def _usable(path: Path) -> Config | None:
-    try:
-        return parse(read_plain(path).decode("utf-8-sig"), str(path))
-    except (ConfigError, UnicodeDecodeError):
-        return None
-
-
-def _place(config: Config, name: str) -> Path:
+def place(config: Config, name: str) -> Path:
+    """Where this box keeps the file of this name."""
     state = Path(config.state.path)
     return state if name == LEARNT else state.with_name(name)
-
-
-def _beside(path: Path, ending: str) -> Path:
-    # Also of a path without a name, such as a folder: the loader says what is wrong with it.
-    return path.parent / (path.name + ending)
 
 
 def _unpacked(data: bytes) -> dict[str, str]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.sources import MQTT, PERSONS, TRACKER, Source
-from rotator.spoken import sender, short_sender, spoken
+from rotator.exchange.sources import MQTT, PERSONS, TRACKER, Source
+from rotator.exchange.spoken import sender, short_sender, spoken
 
 
 @pytest.mark.parametrize(

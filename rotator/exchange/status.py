@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import AngleSource, Axis, Direction
-from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.orders import Mode
+from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
+from rotator.exchange.orders import Mode
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,1 @@
+"""A backup of the box in one file, and the way back."""
