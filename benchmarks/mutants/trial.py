@@ -37,7 +37,11 @@ QUICK = (
 )
 """Where a test that imports a file is looked for: none of these rooms waits for a foreign program."""
 ROOMS = {
-    "rotator/control/sky": ("tests/control/sky", "tests/control/test_controller.py", "tests/control/test_movements_parking.py"),
+    "rotator/control/sky": (
+        "tests/control/sky",
+        "tests/control/test_controller.py",
+        "tests/control/test_movements_parking.py",
+    ),
     "rotator/control/axis": (
         "tests/control/axis",
         "tests/control/test_controller.py",

@@ -85,7 +85,7 @@ def _unreachable(points: tuple[tuple[float | None, float | None], ...], mount: M
                 if angle_deg is not None and not low_deg <= angle_deg <= high_deg:
                     raise Unreachable(f"{axis.value} {angle_deg:g} is outside {low_deg:g} to {high_deg:g} degrees")
             if azimuth_deg is not None:
-                mount.axis_angles(azimuth_deg, elevation_deg, 0.0)
+                mount.axis_angles(azimuth_deg, elevation_deg, azimuth_deg)
     except Unreachable as reason:
         return Refusal(str(reason), out_of_range=True)
     return None

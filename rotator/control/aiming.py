@@ -36,10 +36,8 @@ class Aiming:
         self._pointing = pointing
         self._nudges = Nudges(self._mount.elevation.max_deg)
         self._round = GoingRound(mount, axes)
-        self._asked: Aim | None = None
-        """The order in force, without the nudges; None: there is none."""
-        self._asked_s = 0.0
-        """When it came."""
+        self._asked: tuple[Aim, float] | None = None
+        """The order in force, without the nudges, and when it came; None: there is none."""
         self._flight: Flight | None = None
         """The pass that is flown as planned; None: there is none."""
 
@@ -73,12 +71,12 @@ class Aiming:
             goals = self._pointing.aim(now_s, aim, near_deg, stands_el_deg, over=over, wanted=by_axes)
             self._end_flight()
             self._set_goals(goals)
-            self._asked, self._asked_s = asked, now_s
+            self._asked = asked, now_s
         elif aim.elevation_deg is not None:
             self._pointing.wanted = by_axes or wanted
             self.forget((Axis.ELEVATION,))
             self._round.aim(Axis.ELEVATION, self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
-            self._asked, self._asked_s = asked, now_s
+            self._asked = asked, now_s
 
     def _named_by_axes(self) -> Aim | None:
         """The direction in force by the axes' own angles: over the top the elevation is then above 90°. None: no
@@ -107,11 +105,11 @@ class Aiming:
 
         Raises Unreachable; then everything is as it was.
         """
-        asked = self._asked
-        if asked is None or self._nudges.applied(asked) != asked:
+        if self._asked is None:
             return False
+        asked, asked_s = self._asked
         following = Following(order, source, now_s)
-        if not following.agrees(source, asked, self._asked_s):
+        if self._nudges.applied(asked) != asked or not following.agrees(source, asked, asked_s):
             return False
         self._flight = Flight(order, self._mount, following)
         self._fly_on(now_s)
@@ -123,7 +121,7 @@ class Aiming:
             return False
         if not self._flight.following.agrees(source, aim, now_s):
             return False
-        self._asked, self._asked_s = aim, now_s
+        self._asked = aim, now_s
         # If the stream leaves the path later, it is followed from here.
         self._pointing.accompany(now_s, aim, self._flight.way(now_s))
         return True
@@ -153,8 +151,9 @@ class Aiming:
 
         Raises Unreachable.
         """
-        if self._asked is not None and self._asked.engaged:
-            self.point_at(self._asked, now_s)
+        if self._asked is not None:
+            asked, _ = self._asked
+            self.point_at(asked, now_s)
             return True
         if self._flight is not None:
             self._flight.begin_goals_anew()

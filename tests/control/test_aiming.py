@@ -8,8 +8,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.known_path import KnownPath
-from rotator.exchange.flight_order import AxisPlan, Fly
-from rotator.exchange.orders import Aim, Jog, LoadTimed, Nudge, Order, Park, Stop
+from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly
+from rotator.exchange.orders import BOTH, Aim, Jog, Leave, LoadTimed, Nudge, Order, Park, Stop
 from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -65,6 +65,8 @@ def test_a_knob_turns_its_own_axis_alone_also_where_the_antenna_goes_over_the_to
     for knob_deg in (40.0, 120.0, 0.0, 89.0, 180.0, 9.0):
         desk.step(Aim(None, knob_deg, place=True), by=PANEL)
         assert targets(desk) == pytest.approx((stays_deg, knob_deg))
+        shown = desk.status
+        assert (shown.wanted_azimuth_deg, shown.wanted_elevation_deg) == pytest.approx((stays_deg, knob_deg))
     desk.step(Aim(300.0, None, place=True), by=PANEL)
     assert targets(desk) == pytest.approx((300.0, 9.0))
     shown = desk.status
@@ -125,3 +127,105 @@ def test_what_is_refused_leaves_the_order_in_force_as_it_is_and_as_it_is_shown(
         assert desk.driven == twin.driven
         desk.step()
         twin.step()
+
+
+# --- what ends an order
+
+
+@pytest.mark.parametrize("axes", [(AZ,), (EL,), BOTH], ids=lambda axes: "+".join(each.value for each in axes))
+def test_a_stop_ends_the_motion_of_the_axes_that_it_names_and_of_no_other(desk: Any, axes: tuple[Axis, ...]) -> None:
+    desk.step(Aim(200.0, 40.0))
+    desk.run(1.0)
+    driven = desk.step(Stop(axes))
+    others = [axis for axis in Axis if axis not in axes]
+    assert [axis for axis, way in driven.items() if way is not Direction.OFF] == others
+    wanted = {AZ: desk.status.wanted_azimuth_deg, EL: desk.status.wanted_elevation_deg}
+    for axis, ordered_deg in ((AZ, 200.0), (EL, 40.0)):
+        assert (desk.status.axis(axis).target_deg is None) is (axis in axes)
+        assert wanted[axis] == (None if axis in axes else ordered_deg)
+    desk.run(60.0)
+    for axis, ordered_deg in ((AZ, 200.0), (EL, 40.0)):
+        assert (abs(desk.angle_deg[axis] - ordered_deg) < 5.0) is (axis not in axes)
+
+
+def test_an_order_that_is_not_engaged_stops_both_axes_and_is_shown(desk: Any) -> None:
+    desk.step(Aim(200.0, 40.0))
+    desk.run(1.0)
+    driven = desk.step(Aim(10.0, 20.0, engaged=False))
+    assert set(driven.values()) == {Direction.OFF}
+    assert targets(desk) == (None, None)
+    assert (desk.status.wanted_azimuth_deg, desk.status.wanted_elevation_deg) == (10.0, 20.0)
+
+
+@pytest.mark.parametrize("leaves", [True, False])
+def test_the_target_of_a_stream_stands_at_the_last_order_once_its_sender_has_left(desk: Any, leaves: bool) -> None:
+    for second in range(10):
+        desk.step(Aim(110.0 + second, 20.0))
+        desk.run(0.95)
+    if leaves:
+        desk.step(Leave())
+    desk.run(1.0)
+    assert (desk.status.azimuth.target_deg == 119.0) is leaves
+
+
+# --- a planned pass
+
+
+def flown(desk: Any, *, over: bool = False, lasts_s: float = 60.0) -> None:
+    """From 100° and 10° clockwise and up: 0.5 and 0.25 degrees a second; the path of the axes goes over the top."""
+    moments_s = [desk.now_s + PLAN_STEP_S * count for count in range(round(lasts_s / PLAN_STEP_S) + 1)]
+    rows = tuple((at_s, 100.0 + (at_s - desk.now_s) / 2, 10.0 + (at_s - desk.now_s) / 4) for at_s in moments_s)
+    azimuths_deg = tuple(azimuth_deg + (180.0 if over else 0.0) for _, azimuth_deg, _ in rows)
+    elevations_deg = tuple(180.0 - raised_deg if over else raised_deg for *_, raised_deg in rows)
+    azimuth, elevation = (AxisPlan(desk.now_s, angles_deg, ()) for angles_deg in (azimuths_deg, elevations_deg))
+    desk.step(Fly("SO-50", rows, azimuth, elevation))
+
+
+def shown(desk: Any) -> tuple[float, float]:
+    return desk.status.wanted_azimuth_deg, desk.status.wanted_elevation_deg
+
+
+@pytest.mark.parametrize("over", [False, True])
+def test_a_pass_is_flown_along_its_plan_and_the_display_shows_the_satellite(desk: Any, over: bool) -> None:
+    flown(desk, over=over)
+    assert desk.status.flown.name == "SO-50"
+    desk.run(20.0)
+    assert shown(desk) == pytest.approx((110.0, 15.0), abs=0.1)
+    assert targets(desk) == pytest.approx((290.0, 165.0) if over else (110.0, 15.0), abs=0.3)
+
+
+@pytest.mark.parametrize(("over", "axes"), [(False, (113.0, 17.0)), (True, (293.0, 163.0))])
+def test_a_nudge_turns_a_pass_to_the_right_and_up_over_the_top_too(
+    desk: Any, over: bool, axes: tuple[float, float]
+) -> None:
+    """Over the top the antenna goes up where the elevation axis goes down."""
+    flown(desk, over=over)
+    desk.run(19.0)
+    desk.step(Nudge(AZ, 3.0), Nudge(EL, 2.0), by=PANEL)
+    assert targets(desk) == pytest.approx((axes[0] - 0.5, axes[1] + (0.25 if over else -0.25)), abs=0.3)
+    desk.run(1.0)
+    assert targets(desk) == pytest.approx(axes, abs=0.3)
+    assert shown(desk) == pytest.approx((113.0, 17.0), abs=0.1)
+
+
+def test_a_pass_that_is_over_ends_and_the_antenna_stands(desk: Any) -> None:
+    flown(desk, lasts_s=30.0)
+    desk.run(29.0)
+    assert desk.status.flown is not None
+    desk.run(3.0)
+    assert desk.status.flown is None
+    stood = targets(desk)
+    desk.step(Nudge(AZ, 3.0), by=PANEL)
+    desk.run(10.0)
+    assert targets(desk) == stood, "no order is in force that a nudge could shift"
+
+
+@pytest.mark.parametrize("order", [Aim(200.0, 40.0), Aim(10.0, 10.0, engaged=False), Park()], ids=str)
+def test_the_next_order_ends_a_pass(desk: Any, order: Order) -> None:
+    flown(desk)
+    desk.run(5.0)
+    desk.step(order)
+    assert desk.status.flown is None
+    stands = targets(desk)
+    desk.run(5.0)
+    assert targets(desk) == stands

@@ -1,8 +1,8 @@
-"""Where the middle of a beam is, from how strong a signal was beside its target.
+"""Finds the middle of an antenna's beam from the signal strengths that a receiver has shown at places round a target.
 
-Knows a beam whose power falls off as a bell on a floor of noise, a signal that fades, and gears with play. Fits in
-decibels, as receivers tell strength and as fading works; fading that lasts from one place to the next is taken out.
-Least squares in plain Python (Levenberg and Marquardt). Knows no antenna, no clock and no receiver.
+The model of the strength: a bell (the beam) above a constant floor (the noise), in decibels. The signal may fade, and
+the gears may have play. Fading that lasts from one place to the next is estimated and removed. The fit is a least
+squares fit in plain Python (Levenberg and Marquardt). Knows no antenna, no clock and no receiver.
 """
 
 from __future__ import annotations
@@ -17,29 +17,29 @@ from rotator.control.sky.equations import solved
 HALF_POWER = 4 * math.log(2.0)
 DECIBELS = 10 / math.log(10.0)
 WIDTH_DOUBT = 0.35
-"""How far the true width of the beam may be from the one in the file: the logarithm of their ratio, rms."""
+"""The expected error (rms) of the beam's width in the file: the logarithm of true width to width in the file."""
 PLAY_DOUBT = 0.15
-"""The play of a gear to be expected: so many beams, rms."""
+"""The expected play (rms) of a gear, in widths of the beam."""
 SIGNAL_DOUBT = 3.0
-"""The logarithm of signal to noise, rms."""
+"""The expected error (rms) of the first guess of signal to noise, as a logarithm."""
 LEAST_NOISE_DB = 0.1
 MOST_ALIKE = 0.9
-"""The most that a place's fading is taken to last to the next place."""
+"""The largest share of the fading at one place that is taken to last to the next place."""
 LEAST_RISE_DB = 0.8
 LEAST_GAIN = 30.0
-"""A peak explains so many variances of the noise more than a signal of constant strength."""
+"""A peak must fit better than a constant strength by this many variances of the noise."""
 _ROUNDS, _PASSES = 40, 3
 
 
 class NoPeak(ValueError):  # noqa: N818 - a sentence for a person; the program has not failed
-    """Why these strengths tell no middle."""
+    """Why the middle cannot be found from these strengths."""
 
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """The mean strength while the boom stood: the target was so far to its right and above it, by the model in force.
+    """The mean strength while the boom stood. The target was `right_deg` to its right and `above_deg` above it.
 
-    `came_right`, `came_up`: on which way each axis had come to rest: 1, -1, or 0 where that is not known.
+    `came_right`, `came_up`: the direction in which each axis turned before it stood: 1, -1, or 0 if it is not known.
     """
 
     right_deg: float
@@ -51,20 +51,20 @@ class Heard:
 
 @dataclass(frozen=True, slots=True)
 class Middle:
-    """The target is in the middle of the beam where it seems so far to the right and above, each with its doubt."""
+    """Where the target is in the middle of the beam: so far to the right and above. A doubt is a standard error."""
 
     right_deg: float
     above_deg: float
     right_doubt_deg: float
     above_doubt_deg: float
     rise_db: float
-    """How much stronger it is there than at the edge of what was heard."""
+    """How much stronger the signal is there than at the weakest place."""
     noise_db: float
-    """What is left at each place, rms."""
+    """The difference (rms) between the measured strengths and the fit."""
     beam_deg: tuple[float, float]
-    """Sideways and upright, from edge to edge at half power."""
+    """The beam's width and height, between the points of half power."""
     play_deg: tuple[float, float]
-    """Between the ways that the azimuth, and the elevation, came: of the gears, on the sky."""
+    """The play of the gears of azimuth and elevation, in degrees on the sky."""
 
     @property
     def doubt_deg(self) -> float:
@@ -87,7 +87,7 @@ def middle(heard: Sequence[Heard], beam_deg: float) -> Middle:
 
 
 def _starts(heard: Sequence[Heard], beam_deg: float) -> list[list[float]]:
-    """Where a search begins: at what was loudest, and in the middle of what was heard."""
+    """Where the search begins: the loudest place, the middle of the loud places, and the middle of all places."""
     floor_db = sorted(each.strength_db for each in heard)[len(heard) // 5]
     order = sorted(heard, key=lambda each: each.strength_db, reverse=True)
     loud = order[: max(3, len(order) // 8)]
@@ -101,8 +101,8 @@ def _starts(heard: Sequence[Heard], beam_deg: float) -> list[list[float]]:
 
 
 class _Fit:
-    """Its unknowns: the middle, in beams; the floor in decibels; the logarithms of signal to floor and of the widths;
-    half the play of each axis, in beams.
+    """Finds eight numbers: the middle (right, above), in widths of the beam; the floor in decibels; the logarithms of
+    signal to floor and of the beam's true width and height to those in the file; half the play of each axis, in widths.
     """
 
     def __init__(self, heard: Sequence[Heard], beam_deg: float, start: Sequence[float]) -> None:
@@ -115,14 +115,14 @@ class _Fit:
         self._settle()
 
     def refine(self) -> None:
-        """Learn from what is left how much noise there is, and how long fading lasts, and fit again."""
+        """Estimate the noise and how long fading lasts from the differences to the fit, and fit again."""
         for _ in range(_PASSES):
             left = self._left(self._at)
             total = sum(x * x for x in left)
             self._noise_db = max(LEAST_NOISE_DB, math.sqrt(total / max(len(left) - 6, 1)))
             beside = sum(a * b for a, b in pairwise(left))
             alike = beside / max(total, 1e-9)
-            # The fit has taken some of the fading for its own, and so finds too little that lasts.
+            # The fit follows a part of the fading, so the differences show less fading than there is: add that part.
             self._alike = min(max(alike + (1 + 4 * alike) / len(left), 0.0), MOST_ALIKE)
             self._settle()
 
@@ -132,7 +132,7 @@ class _Fit:
 
     @property
     def gain(self) -> float:
-        """How much better than a constant strength it is, in variances of the noise."""
+        """By how many variances of the noise the peak fits better than a constant strength."""
         level = [each.strength_db for each in self._heard]
         flat = min(self._squares([db - mean for db in level]) for mean in self._means(level))
         return flat - self._squares(self._left(self._at))
@@ -154,7 +154,7 @@ class _Fit:
         )
 
     def _share(self, each: Heard, at: Sequence[float]) -> float:
-        """How much of the signal's power the beam lets in. With play the boom is behind its shaft."""
+        """The share of the signal's power that the beam receives. With play the boom stays behind its shaft."""
         right = each.right_deg / self._beam_deg + at[6] * each.came_right - at[0]
         above = each.above_deg / self._beam_deg + at[7] * each.came_up - at[1]
         return math.exp(-HALF_POWER * ((right / math.exp(at[4])) ** 2 + (above / math.exp(at[5])) ** 2))
@@ -166,7 +166,7 @@ class _Fit:
         return [each.strength_db - self._bell(self._share(each, at), at) for each in self._heard]
 
     def _whitened(self, values: Sequence[float]) -> list[float]:
-        """What is new at each place, in units of the noise: without what lasts from the place before."""
+        """The values without the part that lasts from the place before, in units of the noise."""
         scale = self._noise_db * math.sqrt(1 - self._alike**2)
         fresh = [(value - self._alike * before) / scale for before, value in pairwise(values)]
         return [values[0] / self._noise_db, *fresh]
@@ -201,7 +201,7 @@ class _Fit:
         return matrix, side
 
     def _slopes(self, each: Heard, at: Sequence[float]) -> tuple[float, ...]:
-        """By how many decibels the strength there rises with each unknown."""
+        """By how many decibels the strength there rises when each of the eight numbers grows by one."""
         right = (each.right_deg / self._beam_deg + at[6] * each.came_right - at[0]) / math.exp(at[4])
         above = (each.above_deg / self._beam_deg + at[7] * each.came_up - at[1]) / math.exp(at[5])
         over_floor = math.exp(min(at[3], 40.0)) * math.exp(-HALF_POWER * (right**2 + above**2))
@@ -220,7 +220,7 @@ class _Fit:
         )
 
     def _settle(self) -> None:
-        """Go downhill until it is flat."""
+        """Change the eight numbers in the direction of a smaller cost, until it hardly falls any more."""
         damping, cost = 1e-2, self._cost(self._at)
         for _ in range(_ROUNDS):
             matrix, side = self._equations(self._at)

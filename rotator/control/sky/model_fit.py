@@ -1,8 +1,8 @@
-"""The terms of the mount from points: where the axes stood, and what the boom pointed at then.
+"""Finds the terms of the mount's pointing model from points: the axes stood there, and the boom pointed at a target.
 
-Knows which terms so many points can tell, and refuses what they cannot: a fit that points worse than the model before,
-or that is nothing like a mount. Least squares on the sphere (Gauss and Newton), in plain Python. Knows no files, no
-clock and no rotor.
+Knows how many terms can be found from how many points. Refuses a fit that points worse than the model before, and one
+that no real mount can have. The fit is a least squares fit on the sphere (Gauss and Newton), in plain Python. Knows no
+files, no clock and no rotor.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ from rotator.control.sky.equations import solved
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
 
 MOST_DEG = 10.0
-"""No term of a mount that stands is larger."""
+"""No real mount has a larger term."""
 OFFSETS = ("ia_deg", "ie_deg")
 TILT = (*OFFSETS, "an_deg", "aw_deg")
 ALL = tuple(field.name for field in fields(PointingModel))
 TERMS = ((1, OFFSETS), (3, TILT), (6, ALL))
-"""From so many points on, these terms can be found."""
+"""The least number of points, and the terms that can be found from that many."""
 NOISE_DEG = 0.1
-"""A person, or a beam, points no better than this: points that agree better than that do so by chance."""
+"""The error of a single point is not smaller than this. Points that agree better do so by chance."""
 DOUBT_DEG = 1.0
-"""A tilt, or six terms, that leave a place of the sky in doubt by more than this are not taken from these points."""
+"""A tilt, or six terms, count as found only if the standard error is not larger anywhere on the sky."""
 PROBES = tuple((60.0 * turn, elevation_deg) for turn in range(6) for elevation_deg in (15.0, 60.0))
-"""Places of the axes, all over the sky."""
+"""Places all over the sky, at which that standard error is computed."""
 GAIN_DEG = 0.01
 """A fit must point this much better than the model before."""
 _ROUNDS = 12
@@ -35,16 +35,16 @@ _DONE_DEG = 1e-7
 _STEP_DEG = 1e-3
 
 Miss = tuple[float, float]
-"""How far the target was from where the boom pointed, by a model: to the right and above, in degrees on the sky."""
+"""The distance from where a model says that the boom pointed to the target: to the right and above, in degrees."""
 
 
 class NoFit(ValueError):  # noqa: N818 - a sentence for a person; the program has not failed
-    """Why these points give no model, and what to do."""
+    """Why no model can be found from these points, and what to do."""
 
 
 @dataclass(frozen=True, slots=True)
 class SkyPoint:
-    """The axes stood here, and the boom pointed at that direction. `weight`: how much it counts, beside the others."""
+    """The axes stood at these angles while the boom pointed in this direction. `weight`: how much the point counts."""
 
     axis_azimuth_deg: float
     axis_elevation_deg: float
@@ -58,7 +58,7 @@ class SkyPoint:
         right = dot(boom, (math.cos(az), -math.sin(az), 0.0))
         above = dot(boom, (-math.sin(el) * math.sin(az), -math.sin(el) * math.cos(az), math.cos(el)))
         ahead = dot(boom, unit(self.azimuth_deg, self.elevation_deg))
-        # The angle between the two, in the direction in which the target was.
+        # The length of the result is the angle between both directions.
         off_deg = math.degrees(math.atan2(math.hypot(right, above), ahead))
         share = off_deg / (math.hypot(right, above) or 1.0)
         return -right * share, -above * share
@@ -68,22 +68,22 @@ class SkyPoint:
 class Fit:
     model: PointingModel
     terms: tuple[str, ...]
-    """The terms found from the points; the others are as they were."""
+    """The terms that were found. The other terms are those of the model before."""
     misses: tuple[Miss, ...]
-    """What is left at each point."""
+    """The distance that remains at each point."""
     rms_deg: float
     before_deg: float
-    """The same by the model before."""
+    """The rms distance by the model before."""
 
 
 def rms_deg(points: Sequence[SkyPoint], model: PointingModel) -> float:
-    """How far off the boom points by a model, over all points."""
+    """The rms distance between boom and target over all points, by this model."""
     total = sum(point.weight for point in points)
     return math.sqrt(sum(point.weight * (x * x + y * y) for point, (x, y) in _misses(points, model)) / total)
 
 
 def fitted(points: Sequence[SkyPoint], before: PointingModel = PERFECT) -> Fit:
-    """The model that fits best: with as many terms as the points can tell. Raises NoFit."""
+    """The model that fits best, with as many terms as can be found from these points. Raises NoFit."""
     if not points:
         raise NoFit("there is no point yet")
     before_deg = rms_deg(points, before)
@@ -102,9 +102,10 @@ def fitted(points: Sequence[SkyPoint], before: PointingModel = PERFECT) -> Fit:
 
 
 def _unseen_deg(points: Sequence[SkyPoint], before: PointingModel, terms: tuple[str, ...]) -> float:
-    """How far off a model with these terms points where it has not been fitted: each point by the fit of the others.
+    """The error (rms) at points that were not used: each point is left out once, and predicted from the others.
 
-    More terms always come nearer to the points they were fitted to; they are worth it only if this shrinks, too.
+    With more terms the fit always comes nearer to the points that were used. So the set of terms is chosen by this
+    error.
     """
     if len(points) < 3:
         return 0.0
@@ -119,7 +120,7 @@ def _unseen_deg(points: Sequence[SkyPoint], before: PointingModel, terms: tuple[
 
 
 def _model(points: Sequence[SkyPoint], before: PointingModel, terms: tuple[str, ...]) -> PointingModel | None:
-    """The least squares with these terms; None: there is no such mount."""
+    """The least squares fit with these terms; None: no mount is like that."""
     model = before
     try:
         for _ in range(_ROUNDS):
@@ -136,7 +137,7 @@ def _model(points: Sequence[SkyPoint], before: PointingModel, terms: tuple[str, 
 
 
 def _sure(points: Sequence[SkyPoint], model: PointingModel, terms: tuple[str, ...]) -> bool:
-    """Whether each term is one of a mount that stands, and the points tell it well enough for all of the sky."""
+    """Whether a real mount can have these terms, and the model is sure enough all over the sky."""
     if max(abs(getattr(model, term)) for term in terms) > MOST_DEG:
         return False
     try:
@@ -146,7 +147,7 @@ def _sure(points: Sequence[SkyPoint], model: PointingModel, terms: tuple[str, ..
 
 
 def _doubt_deg(points: Sequence[SkyPoint], model: PointingModel, terms: tuple[str, ...]) -> float:
-    """How far off the boom may point where the model is least sure: the largest standard error at `PROBES`."""
+    """The largest standard error of the model at `PROBES`."""
     matrix, _ = _equations(points, model, terms)
     spare = 2 * len(points) - len(terms)
     mean_weight = sum(point.weight for point in points) / len(points)
@@ -166,7 +167,7 @@ def _doubt_deg(points: Sequence[SkyPoint], model: PointingModel, terms: tuple[st
 def _equations(
     points: Sequence[SkyPoint], model: PointingModel, terms: tuple[str, ...]
 ) -> tuple[list[list[float]], list[float]]:
-    """The weighted sums of products: of how each term moves the boom, and of what is to be moved."""
+    """The normal equations of the fit: the weighted sums of products of slopes, and of slopes and distances."""
     size = len(terms)
     matrix, side = [[0.0] * size for _ in terms], [0.0] * size
     for point, miss in _misses(points, model):
@@ -179,7 +180,7 @@ def _equations(
 
 
 def _slopes(point: SkyPoint, model: PointingModel, terms: tuple[str, ...]) -> tuple[list[float], list[float]]:
-    """How far a degree of each term moves the boom, to the right and up."""
+    """How far the boom moves to the right and up when each term grows by one degree."""
     here = point.miss(model)
     after = [point.miss(replace(model, **{term: getattr(model, term) + _STEP_DEG})) for term in terms]
     right, above = ([(here[part] - each[part]) / _STEP_DEG for each in after] for part in range(2))

@@ -15,14 +15,14 @@ from rotator.control.sky.angles import ZENITH_DEG, turn_deg
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
 
 _EITHER_WAY_DEG = 1.0
-"""A target that passes the zenith may do so on either side, where its azimuth turns so nearly by half a turn: orders
-come in whole degrees."""
+"""A target that passes the zenith turns in azimuth by half a turn. As orders come in whole degrees, a turn that differs
+from half a turn by less than this may go either way."""
 _ROUNDS = 2
-"""The azimuth that fits a resting elevation is found to 0.1° in so many rounds, with terms up to 5°."""
+"""After so many rounds the azimuth for an elevation at its limit is right to 0.1°, with terms of up to 5°."""
 
 
 class Unreachable(Refused):
-    """No axis angle within the range points there. The text gives the reason."""
+    """The axes cannot point there. The text gives the reason."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Mount:
     park_azimuth_deg: float = 0.0
     park_elevation_deg: float = 0.0
     flip: bool = False
-    """A person has said that the antenna clears everything on its way over the top."""
+    """The antenna may go over the top: the file says that nothing is in its way there."""
     horizon: tuple[tuple[float, float], ...] = ()
     """Points (azimuth, least elevation), azimuth rising from 0 to below 360: trees, the neighbour's roof."""
     sectors: tuple[Sector, ...] = ()
@@ -88,9 +88,10 @@ class Mount:
     ) -> tuple[float, float | None]:
         """Axis angles for an order, on the turn of azimuth nearest to `near_azimuth_deg`. Raises Unreachable.
 
-        Below the horizon azimuth follows and elevation rests at its minimum. Past the zenith an order is axis angles
-        where the range allows, else the direction that it means. A direction that azimuth does not reach is looked at
-        over the top, where the antenna may go there; any direction is, if it is to go `over`.
+        For a target below the horizon azimuth follows and elevation rests at its minimum. An elevation above 90° is the
+        angle of the axis itself, if the axis has that angle; else the order is turned into the same direction below
+        90°. Where azimuth does not reach a direction, the antenna goes over the top, if it may. `over`: it goes over
+        the top for any direction.
         """
         if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap
             near_azimuth_deg = azimuth_deg
@@ -121,8 +122,8 @@ class Mount:
     def on_the_way(
         self, azimuth_deg: float, elevation_deg: float, from_azimuth_deg: float, *, flipped: bool
     ) -> tuple[float, float]:
-        """Axis angles for a direction, going on from an azimuth the short way, over the top or not; limits not yet
-        applied, for a way may lead beyond them. Half a turn is as short both ways: then the range decides."""
+        """Axis angles for a direction, the short way from this azimuth. They may be beyond the limits, as a way may be.
+        Half a turn is as short on both sides: then the side within the range is taken."""
         if flipped:
             azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
         azimuth_deg, elevation_deg = self._angles(azimuth_deg, elevation_deg)
@@ -157,7 +158,7 @@ class Mount:
             )
             for sector in self.sectors
         )
-        return max(0.0, *depths_deg, 0.0)
+        return max((0.0, *depths_deg))
 
     def clear_deg(self, axis_azimuth_deg: float, elevation_deg: float) -> float:
         """The elevation nearest to the one asked for that is within limits and above the horizon there."""
@@ -172,9 +173,9 @@ class Mount:
         return self.elevation.nearest(elevation_deg + max(0.0, least_deg - sky_elevation_deg))
 
     def _angles(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
-        """Axis angles at which the antenna points there, as the mount really stands; limits not yet applied.
+        """Axis angles at which the antenna points there, as the mount really stands. They may be beyond the limits.
 
-        Where elevation ends before, the azimuth is the one that fits the elevation at which it rests.
+        Where elevation stops at its limit, azimuth points at the target with elevation at that limit.
         """
         if self.model.perfect:
             return azimuth_deg, elevation_deg

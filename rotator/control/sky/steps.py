@@ -1,12 +1,12 @@
-"""The steps of an on/off motor along a path that is known to its end: the best places, and the best moments to leave.
+"""Plans the steps of an on/off motor along a known path: where it stops, and when it leaves for the next place.
 
-Knows one axis's path, what an error weighs at each moment, how fast the motor is, and the price of a start. Knows
+Knows the path of one axis, the weight of an error at each moment, the motor's speed, and the price of a start. Knows
 nothing of sensors, relays or the sky.
 
-An on/off motor follows a path in steps: it stands, lets the target drift past, and moves on. If the motor were
-infinitely fast, the best steps would be the best piecewise constant curve through the path with a price for each piece.
-That curve is found exactly, by dynamic programming over the moments of change (`_pieces`). A real motor takes its time:
-each step is then shifted in time and in place for as long as the error along the motor's real way falls (`_Settling`).
+An on/off motor follows a path in steps: it stands while the target passes by, and then moves on. For an infinitely fast
+motor the best steps are the best piecewise constant curve through the path, with a price for each piece. That curve is
+found exactly, by dynamic programming over the moments of change (`_pieces`). A real motor needs time to turn. So each
+step is then shifted in time and in place while the error of the real motor becomes smaller (`_Settling`).
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from itertools import accumulate, pairwise
 from rotator.exchange.flight_order import PLAN_STEP_S, Step
 
 LONGEST_S = 240.0
-"""No piece of the curve is longer. A motor that stands for longer gets two steps with the same place."""
+"""The longest piece of the curve. If the motor stands for longer, two pieces have the same place."""
 HOPELESS = 50.0
-"""A piece whose error has cost as much as so many starts is not made longer."""
+"""A piece is not made longer once its error costs as much as so many starts."""
 ROUNDS = 5
 FIRST_SHIFT_S, FIRST_SHIFT_DEG = 2.0, 1.0
 FINER = 1.7
@@ -39,10 +39,10 @@ class Trail:
 
 
 def best_steps(trail: Trail, speed_dps: float, price: float, play_deg: float = 0.0) -> list[Step]:
-    """The first step leads to where the path is met first; the motor may leave for it at any time before.
+    """The first step leads to the first place on the path. The motor may leave for it at any time before.
 
     `price`: the price of a start, in degrees squared times seconds. `play_deg`: the play of the gear between sensor and
-    antenna; a step's place is the sensor's, so that the antenna is right.
+    antenna. The place of a step is what the sensor shows when the antenna is at the right place.
     """
     placed: list[Step] = []
     before_deg: float | None = None
@@ -100,14 +100,14 @@ class _Move:
         return self.middle_s + abs(self.to_deg - self.from_deg) / speed_dps / 2
 
     def joined(self, later: _Move) -> _Move:
-        """Both in one; its middle is between theirs, nearer to the longer one's."""
+        """Both moves as one. Its middle is between their middles, nearer to that of the longer move."""
         size_deg, later_deg = abs(self.to_deg - self.from_deg), abs(later.to_deg - later.from_deg)
         share = later_deg / (size_deg + later_deg) if size_deg + later_deg else 0.0
         return _Move(self.middle_s + share * (later.middle_s - self.middle_s), self.from_deg, later.to_deg)
 
 
 class _Settling:
-    """Shifts steps to where a motor of this speed errs least. Moments count from the beginning of the trail."""
+    """Shifts steps until the error of a motor of this speed is least. Moments count from the beginning of the trail."""
 
     def __init__(self, trail: Trail, speed_dps: float) -> None:
         self._trail = trail
@@ -129,7 +129,7 @@ class _Settling:
         moves: list[_Move] = []
         for at, to in pairwise(pieces):
             move = _Move(to.leave_s, at.place_deg, to.place_deg)
-            # Moves that a slow motor cannot tell apart are one.
+            # A slow motor has not ended one move when it must begin the next: they become one.
             while moves and moves[-1].ends_s(self._speed_dps) >= move.begins_s(self._speed_dps):
                 move = moves.pop().joined(move)
             moves.append(move)
@@ -138,7 +138,7 @@ class _Settling:
         return [first, *begun]
 
     def _shift(self, index: int, by_s: float, by_deg: float) -> None:
-        """Shift one step, and keep that if the error around it falls."""
+        """Shift one step. Take that back if the error around it does not fall."""
         before = self._steps[index]
         after = Step(before.leave_s + by_s, before.place_deg + by_deg)
         earliest_s = self._steps[index - 1].leave_s if index else -math.inf

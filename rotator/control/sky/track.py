@@ -1,11 +1,11 @@
-"""Where the target is going: its path over the next minute, from the degrees that arrive once a second.
+"""Predicts the path of the target over the next minute, from the orders that a program sends once a second.
 
-Knows directions ordered and when. A satellite flies past in nearly a straight line, and a straight line in space,
-projected onto the plane that touches the sky at the target (gnomonic), is x(s) = (a + b s) / (1 + g s) for both
-coordinates with one g: five numbers, fitted to the last minute's orders by least squares. The fit gives the direction
-now to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Orders with decimals need less averaging: a
-few seconds are enough, and the older part of the line, which the earth's rotation bends a little, is left out. Knows
-nothing of axes, motors or tolerances.
+Knows the directions ordered and their moments. A satellite flies past in nearly a straight line. Such a line, projected
+onto the plane that touches the sky at the target (gnomonic), is x(s) = (a + b s) / (1 + g s); y(s) has the same form
+and the same g. So there are five numbers, which are fitted to the orders of the last minute by least squares. With real
+passes and orders in whole degrees, the error is 0.2° now and 1.2° in 40 seconds. For orders with decimals the orders of
+a few seconds are enough; older ones do harm, because the earth's rotation bends the line a little. Knows nothing of
+axes, motors or tolerances.
 """
 
 from __future__ import annotations
@@ -18,32 +18,32 @@ from rotator.control.sky.angles import Vector, direction_of, dot, great_circle_d
 from rotator.control.sky.equations import solved
 
 MEMORY_S = {1.0: 25.0, 0.1: 8.0, 0.01: 4.0}
-"""By the rounding of the orders: their weight falls by e in this time. A longer time averages the rounding better; a
-shorter one follows a bend better."""
+"""For each rounding of the orders: the time in which the weight of an order falls by the factor e. A longer time
+averages the rounding better, a shorter one follows a bend better."""
 KEPT_S = 4 * max(MEMORY_S.values())
 THIN_S = 0.4
-"""Of the orders within this time only the latest counts: faster ones carry no more information."""
+"""Of the orders within this time only the latest counts. The others would add no information."""
 REFIT_S = 0.2
 LEAST_ORDERS = 4
 LONGEST_GAP_S = 5.0
-"""Orders further apart are no stream: each is a target of its own."""
+"""Orders further apart are no stream: each of them is a new target."""
 LEAST_TRAVEL = 1.0
-"""Orders that differ by less than this share of their rounding may be one standing target, rounded two ways."""
+"""Orders that differ by less than this many steps of their rounding may come from a target that stands."""
 WHOLE_DEG = 1.0
 STOOD = 3.0
-"""A target whose pace would have shown in so many steps of its rounding, but did not, stood."""
+"""The target stood if at its present speed the orders would have changed by so many steps, and they did not."""
 LARGEST_SURPRISE_DEG = 4.0
 """An order further than this from where the path led is a new target."""
 FASTEST_APPROACH = 0.02
-"""The share of its distance that a target comes nearer in a second: 8 km/s at 400 km."""
+"""By this share of its distance the fastest target comes nearer in a second: 8 km/s at 400 km."""
 COASTING_S = 3.0
-"""Without new orders the target goes on this long; then the last order stands."""
+"""After the last order the path is followed for this long. Then the antenna stands at the last order."""
 
 _SIDEWAYS_PRIOR = 1e-3
 _APPROACH_PRIOR = 0.3
-"""How strongly the fit assumes that the target does not come nearer, while there are few orders of whole degrees."""
+"""How strongly the fit assumes, from a few orders in whole degrees, that the target does not come nearer."""
 _LEAST_FACING = 0.3
-"""Orders whose cosine to the last one is smaller do not reach the touching plane."""
+"""An order is left out if the cosine of its angle to the last order is smaller: it is too far from the plane."""
 
 
 class Track:
@@ -95,8 +95,11 @@ class Track:
         return self._fit.direction(at_s)
 
     def _forget_standing(self) -> None:
-        """A target that stood and has begun to move, as one that a program holds where it will rise: where it stood
-        says nothing of its path. Not of whole degrees: few of them say less than those of a target that stood."""
+        """Forget the orders at which the target stood, once it moves: they say nothing about its path.
+
+        Until a satellite rises, programs send the place where it will rise. Orders in whole degrees are kept: the few
+        that follow say even less.
+        """
         orders = list(self._orders)
         stands = next((number for number, order in enumerate(orders) if order[1:] != orders[0][1:]), len(orders))
         if stands < 2 or len(orders) - stands < LEAST_ORDERS - 1:
@@ -163,7 +166,7 @@ class _Fit:
         ]
         self._a, self._b, self._c, self._d, self._g = solved(matrix, [nx, nsx, ny, nsy, -nsxx - nsyy])
         if abs(self._g) > FASTEST_APPROACH:
-            # No target does that: it stood and has begun to move, as one that a program holds where it will rise.
+            # No target is that fast. It has stood, for example where it rises, and has just begun to move.
             self._g = g = math.copysign(FASTEST_APPROACH, self._g)
             line = [[n, ns], [ns, nss + sideways]]
             self._a, self._b = solved(line, [nx + g * nsx, nsx + g * nssx])

@@ -1,34 +1,37 @@
-"""When to turn right round: a target that wavers across the end of the range must not swing the antenna each time.
+"""When the antenna turns right round (a swing) to follow a target that has crossed the end of the azimuth range.
 
-Knows moments, and how often the target has asked for a swing lately. Knows no angles. The first swing begins at once;
-each further one within two minutes waits twice as long as the one before, and only a target that stays there gets it.
-Meanwhile the antenna rests at its end of the range, a few degrees from the target.
+A target that goes to and fro across that end must not cause a swing each time. The first swing begins at once. Each
+further one within two minutes waits twice as long as the one before, and it begins only if the target stays beyond the
+end for that time. Meanwhile the antenna waits at the end of the range, a few degrees from the target. Knows moments.
+Knows no angles.
 """
 
 from __future__ import annotations
 
+import math
+
 FIRST_WAIT_S = 3.0
 LONGEST_WAIT_S = 96.0
 QUIET_S = 120.0
-"""After so long without a swing or a wish for one, the next swing begins at once again."""
+"""After this time in which no swing was needed, the next one begins at once again."""
 
 
 class Swings:
     def __init__(self) -> None:
         self._wait_s = 0.0
         """How long a target must stay beyond the end of the range before the next swing."""
-        self._asked_s: float | None = None
-        """When a swing was last wished for, or begun."""
+        self._asked_s = -math.inf
+        """When the target last needed a swing."""
         self._since_s: float | None = None
-        """Since when the target has been where only a swing leads; None: the antenna can follow it as it stands."""
+        """Since when the target has needed a swing; None: the antenna follows it without one."""
 
     def due(self, now_s: float) -> bool:
-        """Whether a target that has waited has stayed for long enough."""
+        """Whether the target has needed a swing for long enough."""
         return self._since_s is not None and now_s - self._since_s >= self._wait_s
 
     def may_begin(self, now_s: float) -> bool:
-        """The target asks for a swing. True: it begins now."""
-        if self._asked_s is not None and now_s - self._asked_s > QUIET_S:
+        """The target needs a swing. True: it begins now."""
+        if now_s - self._asked_s > QUIET_S:
             self._wait_s = 0.0
         self._asked_s = now_s
         if self._since_s is None:
@@ -40,11 +43,11 @@ class Swings:
         return True
 
     def forgo(self) -> None:
-        """The target asks for no swing any more."""
+        """The target needs no swing any more."""
         self._since_s = None
 
     def break_off(self) -> None:
-        """The target is back where it was before the swing began: the next one waits for longer."""
+        """The target is back within the range, and the swing is given up half way: the next one waits for longer."""
         self._since_s = None
         self._lengthen()
 
