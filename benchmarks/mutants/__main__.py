@@ -21,7 +21,7 @@ from benchmarks.mutants.trial import Copy, Outcome, Ran
 CHECKOUT = Path(__file__).parents[2]
 SURVIVORS = CHECKOUT / "tests" / "mutants" / "survivors.toml"
 FILES = (
-    *("hw/drives/*.py", "hw/safety/*.py", "hw/buses/gpio.py"),
+    *("hw/drives/*.py", "hw/safety/*.py", "hw/buses/gpio.py", "hw/moteus/*.py", "hw/sensors/*.py"),
     *("rotator/control/**/*.py", "rotator/rotors/*.py", "rotator/store/*.py"),
 )
 LEAST_KILLED = 0.85

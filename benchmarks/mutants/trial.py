@@ -48,9 +48,12 @@ ROOMS = {
         "tests/control/test_controller_faults.py",
     ),
     "rotator/control": ("tests/control",),
+    "rotator/store": ("tests/store",),
     "rotator/rotors": ("tests/rotors/test_counting_rotor.py", "tests/runtime"),
     "hw/drives": ("tests/hw/drives", "tests/hw/safety/test_guard.py"),
     "hw/safety": ("tests/hw/safety",),
+    "hw/moteus": ("tests/hw/moteus", "tests/rotors/test_moteus_rotor.py"),
+    "hw/sensors": ("tests/hw/sensors", "tests/rotors/test_counting_rotor.py"),
 }
 """Further tests of the files in a room."""
 SLOW = ("real_time", "proper_end_process", "test_following", "test_moving", "test_bad_luck", "test_lost_and_found")

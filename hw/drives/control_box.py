@@ -22,8 +22,8 @@ LEAST_TURN_BACK_DEG = 1.0
 class BoxSpec:
     """One axis. `steps` are pairs of an angle on the rotor's scale and the wiper's step there, 0 to 256."""
 
-    steps: tuple[tuple[float, float], ...] = ((0.0, 0.0), (360.0, 256.0))
-    start_deg: float = 0.0
+    steps: tuple[tuple[float, float], ...]
+    start_deg: float
     """The model's angle when the program starts."""
     start_known: bool = False
     """Whether the rotor surely stands there: in a simulation from the beginning."""

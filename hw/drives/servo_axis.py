@@ -19,10 +19,10 @@ class ServoSpec:
     """One servo on the board's output `channel`. `pulses_us`: pairs of an angle on the rotor's scale and a width."""
 
     channel: int
-    pulses_us: tuple[tuple[float, float], ...] = ((0.0, 500.0), (180.0, 2500.0))
-    start_deg: float = 0.0
+    pulses_us: tuple[tuple[float, float], ...]
+    start_deg: float
     """The angle of the first pulse. The servo jumps to it at its own speed, which no pulse can slow down."""
-    slew_dps: float = 40.0
+    slew_dps: float
     """How fast the ordered angle moves; it must be less than the servo's own speed."""
 
 

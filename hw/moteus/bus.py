@@ -14,7 +14,7 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Awaitable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 from hw.moteus.drive import MoteusDrive
@@ -43,11 +43,14 @@ COMING_TO_REST_S = 2.0
 class MoteusBus:
     """Serves a drive in a thread of its own from `start` to `close`, and connects again when the cable fails."""
 
-    def __init__(self, drive: MoteusDrive, port: SerialPort | CanChannel) -> None:
-        """Raises HardwareError where the library is missing."""
+    def __init__(
+        self, drive: MoteusDrive, port: SerialPort | CanChannel, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """`clock`: seconds, for the log. Raises HardwareError where the library is missing."""
         self._moteus = library()
         self._drive = drive
         self._port = port
+        self._clock = clock
         self._closing = threading.Event()
         self._met = threading.Event()
         """Set when both controllers have answered, or when the first try has failed."""
@@ -84,7 +87,7 @@ class MoteusBus:
                 self._waker[0].call_soon_threadsafe(self._waker[1].set)
 
     def _log_return(self, axis: Axis, gap_s: float) -> None:
-        now_s = time.monotonic()
+        now_s = self._clock()
         if now_s - self._said_s < SAID_EVERY_S:
             self._unsaid += 1
             return

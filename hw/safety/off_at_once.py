@@ -16,7 +16,7 @@ import sys
 import time
 
 TAKE_LINES = 0xC250B407  # GPIO_V2_GET_LINE_IOCTL
-OUTPUT, ACTIVE_LOW = 1 << 3, 1 << 1  # GPIO_V2_LINE_FLAG_...
+OUTPUT, ACTIVE_LOW = 0b1000, 0b10  # GPIO_V2_LINE_FLAG_...
 MOST_LINES = 64
 REQUEST = struct.Struct(f"={MOST_LINES}I32sQ264x2I20xi")
 """struct gpio_v2_line_request: the offsets, the consumer, the flags, then no attributes (every output begins inactive),

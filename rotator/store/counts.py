@@ -75,13 +75,18 @@ def _content(places: Mapping[Axis, Place], cams: Mapping[Axis, CamSettings]) -> 
         if place.standing is not Standing.NEVER:
             axes[axis.value] = {"cam": dict(cams[axis]), "standing": place.standing.value}
         if place.standing is Standing.KNOWN:
-            axes[axis.value]["angle_deg"] = round(place.angle_deg, 3)
+            axes[axis.value]["angle_deg"] = place.angle_deg
     return {"axes": axes}
 
 
 def _parse(content: dict[str, Any], cams: Mapping[Axis, CamSettings]) -> dict[Axis, Place]:
     tables = dict(content["axes"])
     return {axis: _place(tables[axis.value], cam) if axis.value in tables else NEVER for axis, cam in cams.items()}
+
+
+def _known(angle_deg: float) -> Place:
+    """In thousandths of a degree, which are finer than any contact: a digit more would only be another write."""
+    return Place(Standing.KNOWN, round(angle_deg, 3))
 
 
 def _place(table: Mapping[str, Any], cam: CamSettings) -> Place:
@@ -138,14 +143,14 @@ class CountsFile:
         """The axis has been homed and stands at this angle. Angles before belong to another count."""
         self._stood.pop(axis, None)
         self._doubted.discard(axis)
-        if not self._write(axis, Place(Standing.KNOWN, angle_deg)):
+        if not self._write(axis, _known(angle_deg)):
             self._stood[axis] = (-math.inf, angle_deg)  # the next `rest`, or `close`, tries again
 
     def rest(self, now_s: float, axis: Axis, angle_deg: float) -> None:
         """The axis stands at this angle, and its count is right. The angle is written after a long enough rest."""
         since_s = self._stood[axis][0] if axis in self._stood else now_s
         self._stood[axis] = (since_s, angle_deg)
-        place = Place(Standing.KNOWN, round(angle_deg, 3))
+        place = _known(angle_deg)
         needed_s = REST_S if now_s - self._rested_s[axis] >= REST_EVERY_S else LONG_REST_S
         if place != self._written[axis] and now_s - since_s >= needed_s and self._write(axis, place):
             self._rested_s[axis] = now_s
@@ -155,7 +160,7 @@ class CountsFile:
         for axis in self._doubted:
             self.lose(axis)
         for axis, (_, angle_deg) in self._stood.items():
-            place = Place(Standing.KNOWN, round(angle_deg, 3))
+            place = _known(angle_deg)
             if place != self._written[axis]:
                 self._write(axis, place)
 

@@ -9,6 +9,7 @@ import pytest
 
 from hw.ports import Axis
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing, decode, encode
+from rotator.store.whole import NEW
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 CAMS = {AZ: {"spacing_deg": 5.0, "closes_at_deg": 0.3}, EL: {"spacing_deg": 10.0, "closes_at_deg": 2.5}}
@@ -126,6 +127,29 @@ def test_at_the_end_what_stands_is_written_at_once(path: Path) -> None:
     file.start(EL)
     file.close()
     assert on_disk(path) == {AZ: Place(Standing.KNOWN, 130.0), EL: LOST}
+
+
+def test_a_homed_angle_that_the_card_refuses_is_written_as_soon_as_it_takes_it(path: Path) -> None:
+    file = kept(path)
+    file.lose(AZ)
+    blocked = path.with_name(path.name + NEW)
+    blocked.mkdir()
+    file.home(AZ, 12.0)
+    blocked.rmdir()
+    assert on_disk(path)[AZ] == LOST
+    file.rest(100.0, AZ, 12.0)
+    assert on_disk(path)[AZ] == Place(Standing.KNOWN, 12.0), "it does not wait for two seconds of rest"
+
+
+def test_an_angle_is_kept_in_thousandths_and_the_same_is_not_written_again(path: Path) -> None:
+    file = kept(path)
+    file.home(AZ, 12.34567)
+    assert on_disk(path)[AZ] == Place(Standing.KNOWN, 12.346)
+    path.unlink()
+    file.rest(100.0, AZ, 12.34567)
+    file.rest(200.0, AZ, 12.3459)
+    file.close()
+    assert not path.exists()
 
 
 # --- wear

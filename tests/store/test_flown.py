@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
@@ -36,7 +38,7 @@ def test_the_latest_are_kept_and_outlive_the_program(tmp_path: Path) -> None:
     for index in range(MOST + 3):
         passes.keep(flown(index), f"<svg>{index}</svg>")
     again = FlownPasses(tmp_path)
-    assert [each.file for each in again.passes] == [flown(index).file for index in range(MOST + 2, 2, -1)]
+    assert list(again.passes) == [flown(index) for index in range(MOST + 2, 2, -1)]
     assert len(list((tmp_path / "flown").glob("2*.svg"))) == MOST
     assert (tmp_path / "flown" / "mine.svg").exists()
     assert again.picture(flown(MOST).file) == f"<svg>{MOST}</svg>"
@@ -56,6 +58,63 @@ def test_a_picture_that_is_too_large_is_not_kept(tmp_path: Path, caplog: pytest.
     passes.keep(flown(0), "x" * (LONGEST_BYTES + 1))
     assert not passes.passes
     assert "is not kept" in caplog.text
+
+
+def listed(folder: Path, **figures: object) -> FlownPass | None:
+    """The one pass of a list whose file has these figures; None: the list begins anew."""
+    FlownPasses(folder).keep(flown(0), "<svg/>")
+    whole = json.loads((folder / "flown.json").read_text())
+    whole["passes"][0].update(figures)
+    (folder / "flown.json").write_text(json.dumps(whole))
+    passes = FlownPasses(folder).passes
+    return passes[0] if passes else None
+
+
+@pytest.mark.parametrize(
+    ("key", "least", "most"),
+    [
+        ("begin_utc_s", 0.0, 4_102_444_800.0),
+        ("end_utc_s", 0.0, 4_102_444_800.0),
+        ("rms_deg", 0.0, 180.0),
+        ("max_deg", 0.0, 180.0),
+        ("relay_starts", 0, 1_000_000),
+    ],
+)
+def test_figures_of_no_pass_begin_the_list_anew(tmp_path: Path, key: str, least: float, most: float) -> None:
+    for value in (least, most):
+        kept = listed(tmp_path, **{key: value})
+        assert kept is not None
+        assert getattr(kept, key) == value
+    for value in (least - 0.5, most + 0.5, None if key != "relay_starts" else "31"):
+        assert listed(tmp_path, **{key: value}) is None
+
+
+def test_a_rotor_without_relays_has_no_relay_starts(tmp_path: Path) -> None:
+    kept = listed(tmp_path, relay_starts=None, name="x" * 50)
+    assert kept is not None
+    assert (kept.relay_starts, kept.name) == (None, "x" * 40)
+
+
+def test_a_list_that_is_too_long_is_cut(tmp_path: Path) -> None:
+    row = asdict(flown(0))
+    (tmp_path / "flown.json").write_text(json.dumps({"format": "rotator flown 1", "passes": [row] * 31}))
+    assert len(FlownPasses(tmp_path).passes) == 30
+
+
+def test_a_pass_flown_again_replaces_its_picture(tmp_path: Path) -> None:
+    passes = FlownPasses(tmp_path)
+    for picture in ("<svg>1</svg>", "<svg>2</svg>"):
+        passes.keep(flown(0), picture)
+    assert passes.picture(flown(0).file) == "<svg>2</svg>"
+    assert len(passes.passes) == 1
+
+
+def test_a_picture_that_cannot_be_written_is_not_listed(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    (tmp_path / "flown").write_text("a file where its folder should be")
+    passes = FlownPasses(tmp_path)
+    passes.keep(flown(0), "<svg/>")
+    assert not passes.passes
+    assert "the picture of ISS cannot be kept" in caplog.text
 
 
 def test_a_list_that_names_another_file_begins_anew(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:

@@ -89,6 +89,19 @@ def test_a_damaged_file_is_told_with_what_it_means(file: JsonFile, caplog: pytes
         assert f"{file.path}: ignored: " in caplog.text
 
 
+def test_a_later_version_s_file_is_said_and_never_written_over(
+    file: JsonFile, caplog: pytest.LogCaptureFixture
+) -> None:
+    file.save({"number": 7, "words": ""})
+    later = file.path.read_text().replace("test 1", "test 2")
+    file.path.write_text(later)
+    assert loaded(file) == DAMAGED
+    assert "The file stays as it is" in caplog.text
+    assert not file.save({"number": 8, "words": ""})
+    assert file.path.read_text() == later
+    assert file.trouble.endswith("update the program, or move the file away")
+
+
 def test_what_cannot_be_read_is_as_good_as_damaged(file: JsonFile, caplog: pytest.LogCaptureFixture) -> None:
     file.path.mkdir(parents=True)
     assert loaded(file) == DAMAGED

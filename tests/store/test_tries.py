@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import replace
 from pathlib import Path
 
@@ -97,7 +98,8 @@ def test_memory_keeps_what_the_card_refuses(path: Path, memory: Path, *, ran: bo
     later = TriesFile(path, memory)
     later.save(later.load())
     assert not later.trouble
-    assert TriesFile(path).load() == TriesFile(path, memory).load() == later.load()
+    expected = TRIED | {AZ: replace(TRIED[AZ], faults=2 + ran)}
+    assert TriesFile(path).load() == TriesFile(path, memory).load() == later.load() == expected
 
 
 @pytest.mark.parametrize("latest", [TRIED, TRIED | {AZ: replace(TRIED[AZ], driven=True)}, NOTHING])
@@ -126,6 +128,23 @@ def test_a_refusing_card_is_not_written_for_each_start_of_a_motor(path: Path, me
     for driven in (True, False, True):
         assert not file.save(TRIED | {AZ: replace(TRIED[AZ], driven=driven)})
     assert not path.exists()
+
+
+def test_a_card_that_is_well_again_is_written_within_ten_starts_of_a_motor(path: Path, memory: Path) -> None:
+    blocked = refuse(path)
+    file = TriesFile(path, memory)
+    file.save(TRIED)
+    blocked.rmdir()
+    written = [file.save(TRIED | {AZ: replace(TRIED[AZ], driven=start % 2 == 0)}) for start in range(12)]
+    assert written == [False] * 9 + [True] * 3
+    assert TriesFile(path).load() == TRIED
+
+
+@pytest.mark.parametrize("deg", [-1000.0, -12.5, 1000.0])
+def test_an_angle_on_either_side_of_zero_is_kept(path: Path, deg: float) -> None:
+    stood = NOTHING | {AZ: Tries(1, FaultKind.STANDS_STILL, (None, deg), (deg, None))}
+    TriesFile(path).save(stood)
+    assert TriesFile(path).load() == stood
 
 
 def test_without_a_place_in_memory_a_refusing_card_is_said(path: Path) -> None:
@@ -161,7 +180,7 @@ def test_a_damaged_file_is_not_believed(path: Path, old: str, new: str, caplog: 
 @pytest.mark.parametrize("in_memory", [False, True])
 @pytest.mark.parametrize("old", [{"limits_deg": [0.0, 450.0]}, {}])
 def test_an_axis_that_was_set_up_anew_forgets_its_places_and_keeps_its_count(
-    path: Path, memory: Path, old: dict[str, object], in_memory: bool
+    path: Path, memory: Path, old: dict[str, object], in_memory: bool, caplog: pytest.LogCaptureFixture
 ) -> None:
     now: dict[str, object] = {"limits_deg": [0.0, 180.0]}
     kept = TRIED | {EL: Tries(1, FaultKind.STANDS_STILL, (None, 3.0), (None, 3.0))}
@@ -169,9 +188,13 @@ def test_an_axis_that_was_set_up_anew_forgets_its_places_and_keeps_its_count(
     TriesFile(path, memory, {AZ: old, EL: now}).save(kept)
     if blocked:
         blocked.rmdir()
+    caplog.set_level(logging.INFO)
     file = TriesFile(path, memory, {AZ: now, EL: now})
     expected = kept | {AZ: replace(TRIED[AZ], stood_deg=(None, None), stops_deg=(None, None))}
     assert file.load() == expected
+    assert [record.getMessage() for record in caplog.records if record.levelno == logging.INFO] == [
+        f"{path}: azimuth has been set up anew since; the stops that it met are forgotten"
+    ]
     assert file.save(expected)
     back = TriesFile(path, memory, {AZ: old, EL: now})
     assert back.load() == expected, "a way back to the old settings brings no old place back"

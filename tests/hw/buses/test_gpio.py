@@ -63,7 +63,8 @@ def test_the_header_is_found_by_its_label_not_its_number(chips: dict[str, str], 
 
 def test_the_whole_label_must_match() -> None:
     gpio = simulated({"/dev/gpiochip0": "not-pinctrl-rp1", "/dev/gpiochip1": "pinctrl-rp1-too"})
-    with pytest.raises(HardwareError, match="no chip labelled"):
+    seen = r"found /dev/gpiochip0 \(not-pinctrl-rp1\), /dev/gpiochip1 \(pinctrl-rp1-too\)"
+    with pytest.raises(HardwareError, match=f"no chip labelled .*; {seen}"):
         find_chip(gpio, paths=gpio.paths())
 
 

@@ -117,5 +117,25 @@ def test_a_chip_that_goes_away_is_a_sentence() -> None:
         contact.changes()
 
 
+class Waits:
+    """The gpiod package on a contact at rest: a question for its changes takes as long as it is asked to wait."""
+
+    def __init__(self) -> None:
+        self.waited_s = 0.0
+
+    def request_lines(self, path: str, **_wanted: object) -> Waits:
+        return self
+
+    def wait_edge_events(self, timeout: float) -> bool:
+        self.waited_s += timeout
+        return False
+
+
+def test_a_contact_at_rest_keeps_the_loop_waiting_for_no_time() -> None:
+    api = Waits()
+    assert GpioContact(api, PATH, PIN, consumer="test").changes() == []
+    assert api.waited_s == 0
+
+
 def test_a_change_is_a_value() -> None:
     assert ContactChange(1.0, closed=True) == ContactChange(1.0, closed=True, lost=0)

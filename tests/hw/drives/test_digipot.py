@@ -14,7 +14,7 @@ from hw.buses.gpio import GpioOutputs
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus
 from hw.chips.mcp41010 import Mcp41010
 from hw.drives.control_box import BoxSpec
-from hw.drives.digipot import ENABLE, REFRESH_S, DigipotDrive
+from hw.drives.digipot import ENABLE, DigipotDrive
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError
 from hw.safety.guard import Guard
@@ -22,6 +22,7 @@ from hw.safety.guard import Guard
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 ENABLE_PIN = 22
 CYCLE_S = 0.05
+FULL_CIRCLE = ((0.0, 0.0), (360.0, 256.0))
 BAND_DEG = 2.0 + 0.7 + 0.5
 """The box's dead band, half a step, and the play of the gear."""
 
@@ -48,7 +49,7 @@ class Bench:
         )
         bus = self.kernel() if kernel else self.lines()
         self.drive = DigipotDrive(
-            (Mcp41010(bus, "azimuth"), BoxSpec(start_deg=start_deg, range_deg=range_deg)),
+            (Mcp41010(bus, "azimuth"), BoxSpec(FULL_CIRCLE, start_deg, range_deg=range_deg)),
             (Mcp41010(bus, "elevation"), BoxSpec(steps=((0.0, 0.0), (90.0, 64.0)), start_deg=30.0)),
             self.clock,
             enable=FailingEnable(self.outputs({ENABLE: ENABLE_PIN}), enable_outcomes) if relay else None,
@@ -150,14 +151,14 @@ def test_stop_is_where_it_is(stop: str) -> None:
 def test_only_changes_are_sent_and_all_of_it_once_a_second() -> None:
     bench = Bench()
     bench.follow(AZ, 100.0, 10.0)
-    assert bench.rotor.azimuth.chip.frames == pytest.approx(2 + 10 / REFRESH_S, abs=1)
+    assert bench.rotor.azimuth.chip.frames == pytest.approx(2 + 10, abs=1)
 
 
 def test_a_chip_that_forgot_is_told_again() -> None:
     bench = Bench()
     bench.follow(AZ, 42.0, 2.0)
     bench.rotor.inject("azimuth-chip-dips")
-    bench.clock.sleep(REFRESH_S)
+    bench.clock.sleep(1.0)
     bench.clock.sleep(5.0)
     assert bench.antenna(AZ) == pytest.approx(42.0, abs=BAND_DEG + 1.0)
     assert bench.rotor.azimuth.chip.step != 0x80
@@ -318,7 +319,7 @@ def test_steps_that_are_none(steps: tuple[tuple[float, float], ...]) -> None:
     bench = Bench()
     chip = Mcp41010(bench.kernel(), "azimuth")
     with pytest.raises(HardwareError, match="0 to 256"):
-        DigipotDrive((chip, BoxSpec(steps=steps)), (chip, BoxSpec()), bench.clock)
+        DigipotDrive((chip, BoxSpec(steps, 0.0)), (chip, BoxSpec(FULL_CIRCLE, 0.0)), bench.clock)
 
 
 class FailingEnable:

@@ -172,6 +172,16 @@ def test_the_dead_band_is_learnt_for_each_direction(band_deg: float) -> None:
     assert bench.rotor.shafts()[0] == pytest.approx(100.0, abs=0.75)
 
 
+def test_what_was_learnt_is_the_model_s_rest_too_when_the_sensor_is_silent() -> None:
+    bench = Bench(box_band_deg=3.0)
+    for _ in range(4):
+        measured(bench, AZ, 200.0, 35.0)
+        measured(bench, AZ, 100.0, 35.0)
+    for target_deg in (200.0, 100.0):
+        bench.follow(AZ, target_deg, 35.0)
+        assert bench.drive.angle_deg(AZ) == pytest.approx(bench.rotor.shafts()[0], abs=0.3)
+
+
 def test_a_motor_that_stalls_teaches_nothing() -> None:
     bench = Bench()
     measured(bench, AZ, 100.0, 5.0)

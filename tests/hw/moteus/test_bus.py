@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+import errno
+import os
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
+from firmware_sim.clock import SimClock
 from firmware_sim.moteus.bus import Frame, padded
 from firmware_sim.moteus.motor import Mode
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
@@ -238,6 +242,46 @@ def test_no_adapter_is_a_sentence_and_it_is_found_when_it_comes(tmp_path: Path) 
     finally:
         bench.bus.close()
         bench.adapter.unplug()
+
+
+class Refuses(CanChannel):
+    """A port of which the kernel says why it cannot be opened."""
+
+    def __call__(self, moteus: Any) -> Any:
+        raise OSError(int(self.interface), os.strerror(int(self.interface)))
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        (errno.ENOENT, "there is no such port: plug the adapter in"),
+        (errno.EACCES, "no permission: add the user to the group dialout"),
+        (errno.EPERM, "no permission: add the user to the group dialout"),
+        (errno.ENODEV, "there is no such CAN interface: bring it up with ip link"),
+        (errno.ENETDOWN, "the CAN interface is down: ip link set can0 up"),
+        (errno.EIO, "the adapter has gone"),
+    ],
+)
+def test_why_a_port_does_not_open_is_a_sentence_with_what_to_do(number: int, words: str) -> None:
+    drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2), time.monotonic)
+    bus = MoteusBus(drive, Refuses("can0", str(number)))
+    bus.start()
+    try:
+        wait_for(lambda: "not connected" not in _complaint(drive, AZ))
+        assert f"moteus: can0: {words}" in _complaint(drive, AZ)
+    finally:
+        bus.close()
+
+
+def test_a_bad_cable_fills_no_log(caplog: pytest.LogCaptureFixture) -> None:
+    clock = SimClock(100.0)
+    drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2), clock)
+    MoteusBus(drive, CanChannel("can0"), clock)
+    for _ in range(30):
+        drive.on_return(EL, 0.25)
+        clock.sleep(0.5)
+    said = "elevation: moteus answers again, after 0.25 s of silence"
+    assert [record.getMessage() for record in caplog.records] == [said, f"{said}; 19 more since the last such line"]
 
 
 @contextlib.contextmanager

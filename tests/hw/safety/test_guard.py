@@ -16,7 +16,7 @@ from firmware_sim.buses.i2c import SimI2CBus
 from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from hw.drives.relays import LONGEST_LEASE_S, RelayBank
-from hw.ports import Axis, Direction, HardwareError
+from hw.ports import Axis, Direction, HardwareError, OutputLines
 from hw.safety.guard import GUARD_THREAD, Guard
 
 PINS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25, "master": 26}
@@ -182,6 +182,36 @@ def test_a_bug_in_the_drive_is_logged_once_and_the_guard_goes_on(
     assert said[0].getMessage() == "CUT THE MOTOR POWER: ZeroDivisionError('a bug'); trying again"
     bench.drive(0.05)
     assert bench.opened.wait(PATIENCE_S), "it still guards"
+
+
+class FailsInTurn:
+    """Lines that fail with the next of these at each switching off, and switch when all have been raised."""
+
+    def __init__(self, lines: OutputLines, *failures: Exception) -> None:
+        self._lines = lines
+        self._failures = list(failures)
+
+    def set(self, levels: dict[str, bool]) -> None:
+        if not any(levels.values()) and self._failures:
+            raise self._failures.pop(0)
+        self._lines.set(levels)
+
+    def close(self) -> None:
+        self._lines.close()
+
+
+def test_each_line_that_fails_is_in_the_log_but_a_bug_once_whatever_its_words(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    said = ("cannot switch azimuth_cw", "cannot switch master")
+    bench = Bench()
+    failures = (*(HardwareError(text) for text in said), KeyError("one"), KeyError("two"), KeyError("three"))
+    bank = RelayBank(FailsInTurn(bench.lines, *failures), time.monotonic, dead_time_s=0.05)
+    guard = Guard(bank, time.monotonic)
+    bank.drive(Axis.AZIMUTH, Direction.PLUS, time.monotonic() + 0.01)
+    while bank.driven()[Axis.AZIMUTH] is not Direction.OFF:
+        guard.enforce(time.monotonic())
+    assert [record.getMessage() for record in caplog.records] == [*said, "KeyError('one')"]
 
 
 @pytest.mark.usefixtures("guard")

@@ -6,6 +6,7 @@ Its life beside the box, on real lines, is tried on a real kernel (tests/kernel)
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +17,8 @@ from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import OOM_SCORE, Sentinel
 
+MINUTES_OF_RENEWALS = 5 * 60 * 20
+"""Renewals in five minutes of motion, at 20 Hz."""
 LINES = RelayLines("/dev/gpiochip0", {"azimuth_cw": 22}, active_low=False)
 GPIOD = """
 import os
@@ -82,6 +85,43 @@ def test_closed_twice_it_says_nothing_into_another_file(tmp_path: Path) -> None:
         with pytest.raises(HardwareError, match="gone or stuck: no relay may close"):
             sentinel.renew()
         assert other.tell() == 0
+
+
+def motors_run_for_minutes(sentinel: Sentinel) -> None:
+    for _ in range(MINUTES_OF_RENEWALS):
+        sentinel.renew()
+
+
+def test_a_sentinel_that_no_longer_reads_lets_no_relay_close(switched_off: Path) -> None:
+    sentinel = Sentinel(LINES)
+    os.kill(sentinel.pid, signal.SIGSTOP)
+    try:
+        with pytest.raises(HardwareError, match=f"process {sentinel.pid}. is gone or stuck"):
+            motors_run_for_minutes(sentinel)
+    finally:
+        os.kill(sentinel.pid, signal.SIGCONT)
+        sentinel.close()
+    assert switched_off.exists(), "it goes on, and finds the end of the pipe"
+
+
+def locked_kib(pid: int | str) -> int:
+    status = Path(f"/proc/{pid}/status").read_text()
+    return int(next(line.split()[1] for line in status.splitlines() if line.startswith("VmLck:")))
+
+
+LOCK_ALL = "import ctypes; raise SystemExit(ctypes.CDLL(None).mlockall(3) != 0)"
+
+
+@pytest.mark.usefixtures("switched_off")
+def test_it_is_locked_in_memory_where_it_may_be() -> None:
+    """A program that swaps must not take its sentinel with it."""
+    if subprocess.run([sys.executable, "-c", LOCK_ALL], check=False).returncode:
+        pytest.skip("this user may not lock memory")
+    sentinel = Sentinel(LINES)
+    locked = locked_kib(sentinel.pid)
+    sentinel.dismiss()
+    sentinel.close()
+    assert locked > 0
 
 
 def test_where_it_does_not_start_nothing_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
