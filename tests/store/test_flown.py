@@ -85,8 +85,8 @@ def test_figures_of_no_pass_begin_the_list_anew(tmp_path: Path, key: str, least:
         kept = listed(tmp_path, **{key: value})
         assert kept is not None
         assert getattr(kept, key) == value
-    for value in (least - 0.5, most + 0.5, None if key != "relay_starts" else "31"):
-        assert listed(tmp_path, **{key: value}) is None
+    for wrong in (least - 0.5, most + 0.5, "31"):
+        assert listed(tmp_path, **{key: wrong}) is None
 
 
 def test_a_rotor_without_relays_has_no_relay_starts(tmp_path: Path) -> None:

@@ -39,6 +39,27 @@ def test_zones_join_wherever_the_cam_sits(closes_at_deg: float) -> None:
         assert cam.zone_at((cam.begins_deg(zone) + cam.begins_deg(zone + 1)) / 2) == zone
 
 
+def test_a_cam_without_ends_reaches_everything_and_has_an_edge_ahead_on_both_sides() -> None:
+    cam = Cam(10.0, 2.0, 2.5, 6.0)
+    for zone in (-7, -6, 0, 1, 80):
+        assert cam.ahead(zone) == {PLUS, MINUS}
+    assert cam.reaches(-1e6)
+    assert cam.reaches(1e6)
+
+
+def test_a_shaft_may_stand_two_closures_beyond_an_end_and_sees_no_edge_beyond_its_stop() -> None:
+    cam = Cam(10.0, 2.0, 2.5, 6.0, low_deg=0.0, high_deg=360.0)
+    assert [cam.reaches(angle_deg) for angle_deg in (-20.1, -20.0, 380.0, 380.1)] == [False, True, True, False]
+    assert cam.ahead(cam.zone_at(1.0)) == {PLUS}
+    assert cam.ahead(cam.zone_at(3.0)) == {PLUS, MINUS}
+    assert cam.ahead(cam.zone_at(357.0)) == {MINUS}
+
+
+def test_the_shortest_time_between_two_changes_is_that_of_the_narrower_part() -> None:
+    assert Cam(10.0, 2.0, 2.5, 4.0).shortest_s == 0.5
+    assert Cam(10.0, 9.0, 2.5, 4.0).shortest_s == 0.25
+
+
 # --- the same closure met again from the other side
 
 

@@ -102,6 +102,18 @@ def test_all_off_from_another_thread_is_heard_too(cut: str) -> None:
     assert rig.wait(5.0) == pytest.approx(rig.shaft_deg, abs=0.2)
 
 
+def test_it_knows_whether_its_contact_is_closed_and_that_the_next_change_is_ahead() -> None:
+    rig = PulseRig(100.8)
+    seen: list[bool] = []
+    for _ in range(20):
+        seen.append(rig.counter.in_closure)
+        assert rig.counter.in_closure is rig.counter.closed
+        assert rig.counter.ahead == {PLUS, MINUS}
+        rig.move(PLUS, 0.25)
+    assert seen[0]
+    assert 2 < sum(seen) < 8, "a fifth of the cam is closed"
+
+
 # --- the same closure from both sides
 
 
