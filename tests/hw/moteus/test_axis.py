@@ -1,0 +1,307 @@
+"""One moteus controller by hand: which order is due when, and what its answers mean. Moments are arguments."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from hw.moteus.axis import MoteusAxis
+from hw.moteus.orders import Answer, Home, Mode, MoteusSpec, Move, Order, Query, SetOutput, Stop
+from hw.ports import HardwareError
+
+HOLD = Move(math.nan, 0.0)
+STANDS = Answer(Mode.STOPPED, 0.25, 0.0, 24.0, 31.0, 0, Home.OUTPUT)
+"""At 90°, without torque, and it knows its place."""
+
+
+class Bench:
+    """One controller that gives the answers that a test puts into `now`."""
+
+    def __init__(self, spec: MoteusSpec | None = None, *, look_only: bool = False) -> None:
+        self.axis = MoteusAxis(spec or MoteusSpec(1), look_only=look_only)
+        self.now_s = 50.0
+        self.now = STANDS
+        self.hears()
+
+    def hears(self) -> Order:
+        """The next order that is due, answered at once."""
+        self.now_s = max(self.now_s, self.axis.due_s())
+        order = self.axis.order(self.now_s)
+        assert order is not None
+        self.axis.heard(order, self.now, self.now_s)
+        return order
+
+    def says(self, **registers: Any) -> None:
+        self.now = replace(self.now, **registers)
+
+    def aims(self, angle_deg: float = 100.0, rate_dps: float = 0.0) -> None:
+        self.axis.aim(angle_deg, rate_dps, self.now_s + 0.5, self.now_s)
+
+    def moves(self) -> None:
+        """It is aimed, and has torque."""
+        self.aims()
+        self.hears()
+        self.says(mode=Mode.POSITION)
+        self.hears()
+
+    def silent(self, seconds: float) -> None:
+        """It answers nothing for so long."""
+        until_s = self.now_s + seconds
+        while self.axis.due_s() < until_s:
+            self.now_s = max(self.now_s, self.axis.due_s())
+            if self.axis.order(self.now_s) is not None:
+                self.axis.missed()
+        self.now_s = until_s
+
+
+def same(order: Order, expected: Order) -> bool:
+    """NaN is the same as NaN."""
+    return repr(order) == repr(expected)
+
+
+def moved(order: Order) -> tuple[float, float]:
+    """The place and the speed of a move."""
+    assert isinstance(order, Move)
+    return order.position_rev, order.velocity_rev_s
+
+
+# --- how often
+
+
+def test_a_controller_at_rest_is_asked_every_80_ms() -> None:
+    bench = Bench()
+    assert bench.axis.due_s() == pytest.approx(50.08)
+    assert bench.axis.order(50.079) is None
+    assert bench.axis.order(50.08) == Query()
+
+
+def test_an_aim_is_sent_at_once_and_then_every_20_ms_further_on_its_way() -> None:
+    bench = Bench()
+    bench.aims(72.0, 3.6)
+    assert moved(bench.hears()) == pytest.approx((0.2, 0.01))
+    assert bench.axis.due_s() == pytest.approx(50.02)
+    assert moved(bench.hears()) == pytest.approx((0.2 + 0.01 * 0.02, 0.01))
+
+
+@pytest.mark.parametrize(("speed_dps", "every_s"), [(0.009, 0.08), (0.011, 0.02), (-0.011, 0.02)])
+def test_until_it_stands_a_controller_that_holds_is_spoken_to_as_often(speed_dps: float, every_s: float) -> None:
+    bench = Bench()
+    bench.moves()
+    bench.says(velocity_rev_s=speed_dps / 360)
+    bench.axis.hold()
+    assert same(bench.hears(), HOLD)
+    assert same(bench.hears(), HOLD)
+    assert bench.axis.due_s() - bench.now_s == pytest.approx(every_s)
+
+
+# --- torque
+
+
+def test_a_hold_before_the_first_aim_orders_nothing() -> None:
+    bench = Bench()
+    bench.axis.hold()
+    assert bench.hears() == Query()
+    assert bench.axis.at_rest
+
+
+def test_released_it_is_stopped_until_it_says_so_and_then_only_asked() -> None:
+    bench = Bench()
+    bench.moves()
+    bench.axis.release()
+    assert (bench.axis.busy, bench.axis.at_rest) == (True, False)
+    assert [bench.hears(), bench.hears()] == [Stop(), Stop()], "its answer still says that it holds"
+    bench.says(mode=Mode.STOPPED)
+    assert bench.hears() == Stop()
+    assert (bench.axis.busy, bench.axis.at_rest) == (False, True)
+    assert bench.axis.due_s() == -math.inf, "what waits behind it goes at once"
+    assert bench.hears() == Query()
+    bench.axis.hold()
+    assert bench.hears() == Query(), "a hold gives no torque back"
+
+
+def test_a_released_controller_that_another_program_let_time_out_is_not_at_fault() -> None:
+    bench = Bench()
+    bench.moves()
+    bench.axis.release()
+    bench.says(mode=Mode.STOPPED)
+    bench.hears()
+    bench.says(mode=Mode.TIMEOUT)
+    assert [bench.hears(), bench.hears()] == [Query(), Query()]
+    assert bench.axis.fault is None
+
+
+def test_the_bus_may_be_closed_when_a_hold_was_answered_and_it_stands() -> None:
+    bench = Bench()
+    bench.moves()
+    bench.says(velocity_rev_s=0.01)
+    bench.axis.hold()
+    assert not bench.axis.at_rest
+    bench.hears()
+    assert not bench.axis.at_rest, "it turns"
+    bench.says(velocity_rev_s=0.0)
+    bench.hears()
+    assert bench.axis.at_rest
+    bench.aims()
+    assert bench.axis.at_rest, "until the aim is sent"
+    bench.hears()
+    assert not bench.axis.at_rest
+
+
+def test_what_an_earlier_run_left_timed_out_is_stopped_before_it_moves() -> None:
+    bench = Bench()
+    bench.says(mode=Mode.TIMEOUT)
+    assert bench.hears() == Query()
+    assert bench.axis.fault is None
+    bench.aims()
+    assert bench.hears() == Stop()
+    bench.says(mode=Mode.STOPPED)
+    assert bench.hears() == Stop()
+    assert isinstance(bench.hears(), Move)
+
+
+# --- silence
+
+
+def test_its_answer_is_used_for_300_ms() -> None:
+    bench = Bench()
+    assert bench.axis.angle_deg(50.299) == pytest.approx(90.0)
+    for ask in (lambda: bench.axis.angle_deg(50.301), lambda: bench.axis.aim(0.0, 0.0, 60.0, 50.301)):
+        with pytest.raises(HardwareError, match="moteus 1 does not answer: check its supply, the CAN wires and its id"):
+            ask()
+    bench.axis.aim(0.0, 0.0, 60.0, 50.299)
+
+
+def test_after_a_silence_it_is_asked_before_it_moves_on() -> None:
+    bench = Bench()
+    bench.moves()
+    bench.silent(0.1)
+    assert bench.axis.misses == pytest.approx(5, abs=1)
+    assert bench.hears() == Query()
+    assert bench.axis.came_back
+    assert bench.axis.gap_s == pytest.approx(0.12, abs=0.03)
+    assert isinstance(bench.hears(), Move)
+    assert not bench.axis.came_back
+
+
+def test_a_controller_that_answers_for_the_first_time_has_not_come_back() -> None:
+    axis = MoteusAxis(MoteusSpec(1))
+    assert axis.order(50.0) == Query()
+    axis.missed()
+    assert axis.order(50.08) == Query()
+    axis.heard(Query(), STANDS, 50.08)
+    assert not axis.came_back
+
+
+@pytest.mark.parametrize(("seconds", "forgiven"), [(1.9, True), (2.1, False)])
+def test_two_seconds_of_silence_are_forgiven(seconds: float, forgiven: bool) -> None:
+    bench = Bench()
+    bench.moves()
+    bench.silent(seconds)
+    bench.says(mode=Mode.TIMEOUT)
+    bench.hears()
+    assert (bench.axis.fault is None) is forgiven
+    if forgiven:
+        assert bench.hears() == Stop()
+        bench.says(mode=Mode.STOPPED)
+        bench.hears()
+        assert isinstance(bench.hears(), Move)
+    else:
+        assert "moteus 1 heard nothing for 0.5 s and stopped by itself" in str(bench.axis.fault)
+        assert bench.hears() == Query()
+        with pytest.raises(HardwareError, match="then acknowledge it"):
+            bench.aims()
+
+
+def test_a_controller_that_lost_its_place_on_the_way_is_told_no_place() -> None:
+    bench = Bench()
+    bench.moves()
+    assert bench.axis.position_known
+    bench.says(position_rev=0.001, home=Home.ROTOR)
+    bench.hears()
+    assert not bench.axis.position_known
+    assert same(bench.hears(), HOLD)
+    with pytest.raises(HardwareError, match="moteus 1 was switched on and does not know which way the antenna points"):
+        bench.aims()
+    assert not MoteusAxis(MoteusSpec(1)).position_known
+
+
+# --- faults
+
+
+def test_a_fault_stays_until_it_is_acknowledged_and_its_cause_has_gone() -> None:
+    bench = Bench()
+    bench.moves()
+    bench.says(mode=Mode.FAULT, fault=38)
+    bench.hears()
+    assert str(bench.axis.fault).startswith("moteus 1: too hot (38): let it cool")
+    bench.says(mode=Mode.STOPPED, fault=0)
+    assert bench.hears() == Query()
+    assert bench.axis.fault
+    bench.axis.acknowledge(bench.now_s)
+    assert bench.hears() == Stop()
+    assert bench.axis.fault is None
+    assert bench.axis.limited_by is None
+
+
+def test_a_limit_is_no_fault() -> None:
+    bench = Bench()
+    bench.moves()
+    bench.says(fault=103)
+    bench.hears()
+    assert bench.axis.fault is None
+    assert bench.axis.limited_by is not None
+    assert bench.axis.limited_by.short == "SERVOPOS"
+
+
+# --- a person's word
+
+
+@pytest.mark.parametrize("speed_dps", [0.49, -0.49, 0.51, -0.51])
+def test_an_axis_that_turns_by_half_a_degree_a_second_cannot_be_read_by_eye(speed_dps: float) -> None:
+    bench = Bench()
+    bench.says(velocity_rev_s=speed_dps / 360)
+    bench.hears()
+    if abs(speed_dps) > 0.5:
+        with pytest.raises(HardwareError, match="it turns; look where it points when it stands"):
+            bench.axis.confirm(80.0, True, bench.now_s)
+    else:
+        bench.axis.confirm(80.0, True, bench.now_s)
+
+
+@pytest.mark.parametrize("exactly", [True, False])
+def test_a_confirmed_angle_is_set_when_the_torque_has_gone(exactly: bool) -> None:
+    bench = Bench()
+    bench.moves()
+    bench.axis.confirm(80.0, exactly, bench.now_s)
+    assert bench.hears() == Stop()
+    bench.says(mode=Mode.STOPPED)
+    assert bench.hears() == Stop()
+    bench.says(position_rev=80.0 / 360)
+    order = bench.hears()
+    assert isinstance(order, SetOutput)
+    assert (order.position_rev, order.exactly) == (pytest.approx(80.0 / 360), exactly)
+    assert not bench.axis.busy
+    assert bench.axis.angle_deg(bench.now_s) == pytest.approx(80.0)
+    assert same(bench.hears(), HOLD)
+
+
+@pytest.mark.parametrize(("seconds", "delivered"), [(1.9, True), (2.1, False)])
+def test_a_request_that_cannot_be_delivered_in_two_seconds_is_dropped(seconds: float, delivered: bool) -> None:
+    bench = Bench()
+    bench.axis.confirm(80.0, True, bench.now_s)
+    bench.silent(seconds)
+    bench.hears()
+    assert bench.axis.busy is delivered
+
+
+def test_an_axis_that_is_only_looked_at_gets_no_order_and_no_position() -> None:
+    direct = MoteusSpec(1, geared=False, min_deg=90.0, max_deg=400.0)
+    rotor = replace(STANDS, home=Home.ROTOR, position_rev=0.1)
+    for look_only, second in ((False, SetOutput(direct.revolutions(396.0), exactly=False)), (True, Query())):
+        bench = Bench.__new__(Bench)
+        bench.axis, bench.now_s, bench.now = MoteusAxis(direct, look_only=look_only), 50.0, rotor
+        assert [bench.hears(), bench.hears()] == [Query(), second]
+        assert bench.axis.angle_deg(bench.now_s) == pytest.approx(396.0)

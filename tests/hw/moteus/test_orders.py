@@ -1,0 +1,52 @@
+"""Degrees and a controller's revolutions, and the numbers of its registers as mjbots' reference gives them."""
+
+from __future__ import annotations
+
+import pytest
+
+from hw.moteus.orders import WATCHDOG_S, Home, Mode, MoteusSpec
+
+ELEVATION = MoteusSpec(2, rev_per_turn=-2.0, zero_rev=-0.25)
+
+
+def test_the_registers_have_the_reference_s_numbers() -> None:
+    assert {mode.name: mode.value for mode in Mode} == {"STOPPED": 0, "FAULT": 1, "POSITION": 10, "TIMEOUT": 11}
+    assert {home.name: home.value for home in Home} == {"RELATIVE": 0, "ROTOR": 1, "OUTPUT": 2}
+
+
+def test_a_controller_that_hears_nothing_stops_after_half_a_second() -> None:
+    assert WATCHDOG_S == 0.5
+
+
+@pytest.mark.parametrize(("angle_deg", "position_rev"), [(0.0, -0.25), (90.0, -0.75), (-45.0, 0.0), (360.0, -2.25)])
+def test_there_and_back(angle_deg: float, position_rev: float) -> None:
+    assert ELEVATION.revolutions(angle_deg) == pytest.approx(position_rev)
+    assert ELEVATION.degrees(position_rev) == pytest.approx(angle_deg)
+
+
+def test_a_span_has_no_sign_and_no_zero() -> None:
+    assert ELEVATION.span_rev(90.0) == ELEVATION.span_rev(-90.0) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("angle_deg", "beyond_deg", "turns_deg"),
+    [
+        (45.0, 0.0, [45.0, 405.0]),
+        (-315.0, 0.0, [45.0, 405.0]),
+        (100.0, 0.0, [100.0]),
+        (91.0, 0.0, [91.0]),
+        (-4.0, 5.0, [-4.0, 356.0]),
+        (-6.0, 5.0, [354.0]),
+        (454.0, 5.0, [94.0, 454.0]),
+        (456.0, 5.0, [96.0]),
+    ],
+)
+def test_each_turn_of_the_range_in_which_the_antenna_points_so(
+    angle_deg: float, beyond_deg: float, turns_deg: list[float]
+) -> None:
+    spec = MoteusSpec(1, min_deg=0.0, max_deg=450.0)
+    assert spec.turns_deg(angle_deg, beyond_deg) == pytest.approx(turns_deg)
+
+
+def test_where_no_turn_is_in_the_range_there_is_none() -> None:
+    assert MoteusSpec(1, min_deg=0.0, max_deg=180.0).turns_deg(270.0, 5.0) == []
