@@ -1,6 +1,6 @@
-"""Linear equations: as many as there are unknowns, from a sum of squares that is to be least.
+"""Solves linear equations, as many as there are unknowns, that come from a least squares fit.
 
-Knows numbers alone. Such a matrix is symmetric and positive definite, so no rows need to be exchanged.
+Knows numbers alone. The matrix of such a fit is symmetric and positive definite, so no rows need to be exchanged.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ def solved(matrix: Sequence[Sequence[float]], side: Sequence[float]) -> list[flo
     rows, right = [list(row) for row in matrix], list(side)
     size = len(right)
     for i in range(size):
-        for row in range(i + 1, size):
-            factor = rows[row][i] / rows[i][i]
+        for at in range(i + 1, size):
+            factor = rows[at][i] / rows[i][i]
             for column in range(i, size):
-                rows[row][column] -= factor * rows[i][column]
-            right[row] -= factor * right[i]
-    solution = [0.0] * size
-    for i in reversed(range(size)):
-        known = sum(rows[i][j] * solution[j] for j in range(i + 1, size))
-        solution[i] = (right[i] - known) / rows[i][i]
-    return solution
+                rows[at][column] -= factor * rows[i][column]
+            right[at] -= factor * right[i]
+    backwards: list[float] = []
+    for row, value in zip(reversed(rows), reversed(right), strict=True):
+        known = sum(factor * each for factor, each in zip(reversed(row), backwards, strict=False))
+        backwards.append((value - known) / row[-1 - len(backwards)])
+    return backwards[::-1]

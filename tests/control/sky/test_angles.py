@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.control.sky.angles import great_circle_deg, turn_deg
+from rotator.control.sky.angles import Vector, direction_of, dot, great_circle_deg, turn_deg, unit
 
 azimuths = st.floats(-720, 720)
 elevations = st.floats(-90, 180)
@@ -54,3 +54,41 @@ def test_it_is_the_same_both_ways(az_a: float, el_a: float, az_b: float, el_b: f
     there, back = great_circle_deg(az_a, el_a, az_b, el_b), great_circle_deg(az_b, el_b, az_a, el_a)
     assert there == pytest.approx(back, abs=1e-6)
     assert 0 <= there <= 180
+
+
+# --- vectors: to the east, to the north and up
+
+
+@pytest.mark.parametrize(
+    ("direction", "vector"),
+    [
+        ((0, 0), (0, 1, 0)),
+        ((90, 0), (1, 0, 0)),
+        ((180, 0), (0, -1, 0)),
+        ((30, 0), (0.5, 0.8660, 0)),
+        ((30, 60), (0.25, 0.4330, 0.8660)),
+        ((77, 90), (0, 0, 1)),
+        ((0, 150), (0, -0.8660, 0.5)),
+        ((-90, -30), (-0.8660, 0, -0.5)),
+    ],
+)
+def test_a_direction_as_a_vector(direction: tuple[float, float], vector: Vector) -> None:
+    assert unit(*direction) == pytest.approx(vector, abs=1e-4)
+
+
+@given(st.floats(-179, 179), st.floats(-89, 89), st.floats(0.1, 50.0))
+def test_a_vector_of_any_length_has_its_direction_back(azimuth_deg: float, elevation_deg: float, long: float) -> None:
+    east, north, up = unit(azimuth_deg, elevation_deg)
+    assert direction_of((east * long, north * long, up * long)) == pytest.approx((azimuth_deg, elevation_deg))
+
+
+@given(azimuths, elevations, azimuths, elevations)
+def test_the_product_of_two_directions_is_the_cosine_between_them(
+    az_a: float, el_a: float, az_b: float, el_b: float
+) -> None:
+    between_deg = great_circle_deg(az_a, el_a, az_b, el_b)
+    assert dot(unit(az_a, el_a), unit(az_b, el_b)) == pytest.approx(math.cos(math.radians(between_deg)), abs=1e-9)
+
+
+def test_a_product_of_vectors_of_any_length() -> None:
+    assert dot((2.0, 3.0, 5.0), (7.0, 11.0, 13.0)) == 14.0 + 33.0 + 65.0

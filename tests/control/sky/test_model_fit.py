@@ -6,11 +6,9 @@ import math
 import random
 from dataclasses import astuple, replace
 
-import numpy as np
 import pytest
 
 from rotator.control.sky.angles import great_circle_deg
-from rotator.control.sky.equations import solved
 from rotator.control.sky.model_fit import ALL, OFFSETS, TILT, NoFit, SkyPoint, fitted, rms_deg
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
 from tests.search import some
@@ -128,11 +126,3 @@ def test_a_miss_is_where_the_target_was_as_seen_along_the_boom() -> None:
     assert SkyPoint(100, 0, 103, 0).miss(PERFECT) == pytest.approx((3, 0))
     assert SkyPoint(100, 0, 100, 2).miss(PERFECT) == pytest.approx((0, 2))
     assert rms_deg([SkyPoint(100, 0, 103, 0), SkyPoint(50, 0, 50, 4)], PERFECT) == pytest.approx(math.sqrt(12.5))
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_the_equations_are_solved_as_numpy_solves_them(seed: int) -> None:
-    draw = np.random.default_rng(seed)
-    rows = draw.normal(size=(24, 6))
-    matrix, side = rows.T @ rows, draw.normal(size=6)
-    assert solved(matrix.tolist(), side.tolist()) == pytest.approx(np.linalg.solve(matrix, side).tolist())
