@@ -37,6 +37,26 @@ def test_round_the_chimney_goes_over_it() -> None:
     assert min(elevation_deg for _, elevation_deg in way.places[:-1]) > 38.5
 
 
+@pytest.mark.parametrize(
+    ("sector", "start", "target", "axis", "beside_deg"),
+    [
+        (Sector("roof", Range(100, 130), Range(0, 60), 2.0), (60, 20), (200, 20), 1, 64.5),
+        (Sector("cable", Range(100, 130), Range(20, 180), 2.0), (60, 40), (200, 40), 1, 15.5),
+        (Sector("west", Range(0, 200), Range(50, 60), 2.0), (150, 20), (150, 100), 0, 206.1),
+        (Sector("east", Range(200, 450), Range(50, 60), 2.0), (250, 20), (250, 100), 0, 193.9),
+    ],
+    ids=lambda each: each.name if isinstance(each, Sector) else None,
+)
+def test_it_passes_close_by_the_free_side_of_a_sector(
+    sector: Sector, start: Place, target: Place, axis: int, beside_deg: float
+) -> None:
+    """Margin, room for the motor, what the reading is in doubt by, and a little more: 4.5° up and down, 6.1° across."""
+    way = detours(sector).round(box_at(start), target)
+    turned_deg = [place[axis] for place in way.places]
+    assert turned_deg[-1] == target[axis]
+    assert max(turned_deg, key=lambda each_deg: abs(each_deg - target[axis])) == pytest.approx(beside_deg)
+
+
 def test_a_target_inside_is_met_at_the_nearest_free_place() -> None:
     chimney = detours(CHIMNEY)
     (place,) = chimney.round(box_at((60, 10)), (105, 10)).places
