@@ -29,6 +29,7 @@ from rotator.exchange.orders import Order
 from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.port import AddAlarm, Rotor
 from rotator.runtime.loop import ControlLoop
+from rotator.store import counts as counts_file
 from rotator.store import knobs
 
 
@@ -170,6 +171,12 @@ class Station:
                 return Hd44780(port, self._sleep)
             case _:
                 return None
+
+
+def open_station(config: Config) -> Station:
+    """The hardware, in real time. Where the rotor outlives the program, axes that count start with the kept counts."""
+    kept = Path(config.state.path).with_name(counts_file.FILE_NAME) if config.keeps_files else None
+    return Station(config, time.monotonic, time.sleep, counts=kept)
 
 
 def fitted_panel(

@@ -25,8 +25,7 @@ from rich.text import Text
 from hw.ports import Axis
 from rotator.assembly.kept_files import build_latch_file
 from rotator.assembly.sky import build_catalogue, build_site
-from rotator.assembly.station import Station
-from rotator.box.app import open_station
+from rotator.assembly.station import Station, open_station
 from rotator.calibrating.receiver import BadAddress
 from rotator.calibrating.rig import Rig
 from rotator.calibrating.session import SKY, CalibrationSession

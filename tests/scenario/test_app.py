@@ -17,7 +17,8 @@ from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, AngleSource, Axis, CharacterDisplay, Direction, HardwareError
 from hw.safety.guard import GUARD_THREAD
 from rotator.assembly.kept_files import build_tries_file
-from rotator.box.app import App, open_station
+from rotator.assembly.station import open_station
+from rotator.box.app import App
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.exchange.faults import FaultKind

@@ -1,0 +1,189 @@
+"""All parts of one box, built from its configuration and joined to each other. None of them runs yet.
+
+Knows which part is given to which. Knows no driver, kind of rotor or protocol: `rotator.assembly` chooses those. Does
+not know the order in which the parts start and stop: `app` does.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import time
+from dataclasses import dataclass
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hw.ports import Axis
+from rotator.assembly.fetching import build_elements_server, build_fetching
+from rotator.assembly.hands import hands
+from rotator.assembly.links import RunningLink, build_links
+from rotator.assembly.settings import build_mount, build_offsets
+from rotator.assembly.sky import build_sky
+from rotator.assembly.station import Station, fitted_panel
+from rotator.assembly.tracking import build_tracking
+from rotator.box.remembered import Remembered, remembered
+from rotator.calibrating.stops import only_stops
+from rotator.config.model import Config
+from rotator.config.places import console_path, monitor_path
+from rotator.control.sky.mount import Mount
+from rotator.exchange.sources import KEYBOARD, Source
+from rotator.links.console import ConsoleSocket
+from rotator.monitor.socket import MonitorSocket
+from rotator.monitor.tap import Tap
+from rotator.mqtt.build import build_mqtt
+from rotator.panel.thread import PanelThread
+from rotator.protocols.console_session import ConsoleSession
+from rotator.runtime.anew import Anew
+from rotator.runtime.autosave import Autosave
+from rotator.runtime.client import Client
+from rotator.runtime.display import DisplayThread
+from rotator.runtime.engine import Engine
+from rotator.runtime.event_watch import EventWatch
+from rotator.runtime.loop import ControlLoop
+from rotator.runtime.service_manager import ServiceManager
+from rotator.tracking.thread import TrackingThread
+from rotator.views import lcd
+from rotator.web.build import build_page, build_pairings
+from rotator.web.pairing import Pairings
+
+if TYPE_CHECKING:
+    from rotator.calibrating.on_page import PageCalibration
+    from rotator.fetching.thread import FetchThread
+    from rotator.links.elements import ElementsServer
+    from rotator.mqtt.thread import MqttThread
+    from rotator.web.thread import PageThread
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """The parts of one box. None: the configuration has no such part."""
+
+    station: Station
+    service_manager: ServiceManager
+    events: EventWatch
+    mount: Mount
+    remembered: Remembered
+    loop: ControlLoop
+    engine: Engine
+    autosave: Autosave
+    tracking: TrackingThread
+    fetching: FetchThread | None
+    elements_server: ElementsServer | None
+    links: list[RunningLink]
+    console: Client
+    """The box as its own keyboard sees it."""
+    console_socket: ConsoleSocket
+    monitor_socket: MonitorSocket
+    pairings: Pairings | None
+    page: PageThread | None
+    mqtt: MqttThread | None
+    panel: PanelThread | None
+    display: DisplayThread | None
+    calibration: PageCalibration | None
+    """The calibration of an axis that this run is for."""
+
+
+def lcd_rows(loop: ControlLoop, pairings: Pairings | None, now_s: float, *, code_shown: bool = True) -> tuple[str, str]:
+    """The rows of the display. Not `code_shown`: with a covered code, for those who are not at the box."""
+    code = pairings.shown() if pairings else ""
+    return lcd.rows(loop.status, now_s, code if code_shown else "*" * len(code))
+
+
+def build_parts(config: Config, path: Path | None, station: Station, anew: Anew) -> Parts:
+    """`path`: the configuration's file. `anew`: by which the page has the box start anew. Raises HardwareError."""
+    service_manager = ServiceManager(os.environ, time.monotonic)
+    events, page_events = EventWatch(time.monotonic), EventWatch(time.monotonic)
+    mount = build_mount(config)
+    before = remembered(config, path, anew)
+    calibration = _calibration_of(config, anew.sets_up, path) if anew.sets_up and path else None
+
+    def sign_of_life() -> None:
+        service_manager.alive()
+        station.beat()
+
+    loop = ControlLoop(
+        before.controller,
+        station.rotor,
+        time.monotonic,
+        1 / config.control.rate_hz,
+        after_good_step=sign_of_life,
+        events=events,
+        page_events=page_events,
+        keep_latch=before.latch.note,
+        keep_tries=before.note_tries,
+    )
+    tracking = build_tracking(config, loop, mount)
+    pairings = build_pairings(config, tracking.clock_is_known)
+    fetching = build_fetching(config, tracking.clock_is_known, tracking.read_again)
+    elements_server = build_elements_server(config, tracking.known_elements)
+    numbers = itertools.count(1)
+    monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
+    console_socket = ConsoleSocket(
+        console_path(monitor),
+        lambda: ConsoleSession(
+            Client(loop, mount, Source("console", next(numbers))),
+            hands(station.world),
+            tracking.tracker,
+            pairings,
+        ),
+    )
+    tap = Tap(datetime.now, lambda: loop.status)
+    # While an axis is calibrated no program reaches the box.
+    links = build_links([] if calibration else config.link, loop, mount, tap, build_sky(config.station))
+    page = (
+        build_page(
+            config,
+            loop,
+            mount,
+            pairings,
+            lcd=lambda: lcd_rows(loop, pairings, time.monotonic(), code_shown=False),
+            wires=[link.wire for link in links],
+            tap=tap,
+            tracking=tracking,
+            path=path,
+            anew=anew,
+            calibration=calibration,
+            events=page_events,
+        )
+        if pairings
+        else None
+    )
+    mqtt = build_mqtt(config, loop, mount, tracking.tracker)
+    post = partial(loop.post, Source("panel"))
+    panel = fitted_panel(config, station, loop, only_stops(post) if calibration else post)
+    if panel:
+        tap.on_data = panel.data_received
+    display = station.display
+    return Parts(
+        station=station,
+        service_manager=service_manager,
+        events=events,
+        mount=mount,
+        remembered=before,
+        loop=loop,
+        engine=Engine(loop, station.rotor),
+        autosave=Autosave(
+            loop, path, build_offsets(config), before.learnt, before.relays_file, tries=before.tries_file
+        ),
+        tracking=tracking,
+        fetching=fetching,
+        elements_server=elements_server,
+        links=links,
+        console=Client(loop, mount, Source(KEYBOARD)),
+        console_socket=console_socket,
+        monitor_socket=MonitorSocket(monitor, tap.listeners, tap.greeting),
+        pairings=pairings,
+        page=page,
+        mqtt=mqtt,
+        panel=panel,
+        display=DisplayThread(display, partial(lcd_rows, loop, pairings), time.monotonic) if display else None,
+        calibration=calibration,
+    )
+
+
+def _calibration_of(config: Config, axis: Axis, path: Path) -> PageCalibration:
+    from rotator.calibrating.on_page import PageCalibration  # noqa: PLC0415 - a start as ever does without its guides
+
+    return PageCalibration(config, axis, path, time.monotonic)
