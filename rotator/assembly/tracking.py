@@ -34,9 +34,10 @@ from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_followed import WantedOften
 from rotator.tracking.planner import ProcessPlanner
+from rotator.tracking.ports import TRACK
 from rotator.tracking.system_clock import SystemClock
 from rotator.tracking.thread import TrackingThread
-from rotator.tracking.tracker import NO_PLAN, TRACK, Tracker
+from rotator.tracking.tracker import NO_PLAN, Tracker
 
 log = logging.getLogger(__name__)
 

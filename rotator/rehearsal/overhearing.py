@@ -18,7 +18,7 @@ from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import Now
-from rotator.tracking.tracker import Box
+from rotator.tracking.ports import Box
 
 COMPUTING_S = 0.6
 """From an order until the thread has looked at it, and has planned."""

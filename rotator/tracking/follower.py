@@ -20,7 +20,9 @@ from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
 from rotator.tracking.next_flight import NextFlight, Now
 from rotator.tracking.next_followed import Upcoming, WantedOften
-from rotator.tracking.tracker import TRACK, Box, Flown, Tracker, lost
+from rotator.tracking.ports import TRACK, Box
+from rotator.tracking.tracked import Flown
+from rotator.tracking.tracker import Tracker
 
 log = logging.getLogger(__name__)
 
@@ -85,7 +87,7 @@ class Follower:
             self._flown, self._again_utc_s = None, now.utc_s
             return
         if self._flown is not None:
-            if reason := lost(self._flown, status, now):
+            if reason := self._flown.lost(status, now):
                 log.warning("the plan rests: %s", reason)
                 self._rests_until_s = now.loop_s + REST_S
             elif now.utc_s >= self._flown.flight.end_utc_s:

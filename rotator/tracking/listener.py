@@ -18,7 +18,7 @@ from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.next_flight import Now, Wanted
-from rotator.tracking.tracker import Box, Planner
+from rotator.tracking.ports import Box, Planner
 
 log = logging.getLogger(__name__)
 
