@@ -32,10 +32,10 @@ RELAYS: dict[tuple[Axis, Direction], str] = {
 @dataclass(slots=True)
 class _Motor:
     on: Direction = Direction.OFF
-    until_s: float = 0.0
+    until_s: float = NEVER_S
     last: Direction = Direction.OFF
     """The direction of the last run."""
-    stopped_s: float = float("-inf")
+    stopped_s: float = NEVER_S
     """When the motor was last switched off. A reversal waits for the dead time from this moment."""
 
 
@@ -103,7 +103,7 @@ class RelayBank:
                     self._renew()
                     self._lines.set({MASTER: True})
                     self._fed_until_s = max(self._fed_until_s, min(until_s, now_s + LONGEST_LEASE_S))
-                    self._master_until_s = max(self._master_until_s or 0.0, self._fed_until_s)
+                    self._master_until_s = max(self._master_until_s or NEVER_S, self._fed_until_s)
             finally:
                 self._plan(now_s)
 

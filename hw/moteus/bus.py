@@ -105,7 +105,7 @@ class MoteusBus:
             except (Exception, SystemExit) as failure:  # the library calls sys.exit when one of its handlers fails
                 reason = _explain(failure)
             if self._closing.is_set():
-                break
+                return
             wait_s = BACK_OFF_S[0] if self._lively else min(2 * wait_s, BACK_OFF_S[1])
             log.debug("moteus: %s: %s; next try in %.1f s", self._port, reason, wait_s)
             self._drive.lost(f"moteus: {self._port}: {reason}")

@@ -14,7 +14,7 @@ from rotator.control.axis.readings import Window
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.exchange.faults import FaultKind
-from rotator.rotors.boxes import ASSUMED, FIRST_READINGS, MOVED_READINGS, UNFED, UNSEEN, UNSEEN_S, BoxRotor, FollowedBox
+from rotator.rotors.boxes import ASSUMED, UNFED, UNSEEN, BoxRotor, FollowedBox
 from rotator.rotors.servos import ServoRotor
 from tests.rotors.journal import Journal
 
@@ -67,7 +67,7 @@ def test_a_box_that_turned_otherwise_than_told_is_a_fault_and_the_other_has_no_s
 def test_before_a_sensor_has_shown_its_place_neither_box_is_late_and_soon_it_is_said_why(
     box: BoxRotor, drive: Journal
 ) -> None:
-    for drive.blind_s, notice in ((0.5, None), (UNSEEN_S + 0.1, UNSEEN)):
+    for drive.blind_s, notice in ((0.5, None), (2.0, None), (2.1, UNSEEN)):
         for axis in Axis:
             assert (box.condition(axis).notice, box.condition(axis).settling) == (notice, True)
     drive.blind_s = 0.0
@@ -111,6 +111,10 @@ def test_servos_are_let_go_when_the_box_ends_even_after_a_failure(servos: ServoR
     assert drive.said[-1] == "finish"
 
 
+FIRST_READINGS, MOVED_READINGS = 5, 20
+"""A quarter of a second, and one second."""
+BROKEN = 0.0
+"""The reading of a broken wire."""
 HALF_TURN = Calibration(((0.0, 0.0), (1.0, 180.0)))
 
 
@@ -162,6 +166,43 @@ def test_a_model_is_put_elsewhere_only_by_readings_that_stay(drive: Journal) -> 
     for pot.reading in (0.86, 0.82, 0.78):
         sensor.read()
     assert drive.models == {EL: pytest.approx(140.4)}, "and turns from there"
+
+
+@pytest.mark.parametrize(("broken", "believed"), [(7, True), (8, False)])
+def test_a_place_further_off_is_believed_when_20_of_the_latest_27_readings_show_it(
+    drive: Journal, broken: int, believed: bool
+) -> None:
+    pot = Pot()
+    sensor = followed(drive, pot)
+    for _ in range(FIRST_READINGS):
+        sensor.read()
+    for pot.reading in (0.9,) * 19 + (BROKEN,) * broken + (0.9,):
+        assert drive.models == {EL: 90.0}
+        sensor.read()
+    assert drive.models == {EL: pytest.approx(162.0 if believed else 90.0)}
+
+
+def test_the_first_place_is_shown_by_five_readings_that_are_more_than_half_of_them(drive: Journal) -> None:
+    pot = Pot()
+    sensor = followed(drive, pot)
+    for pot.reading in (BROKEN,) * 5 + (0.5,) * 5:
+        sensor.read()
+    assert drive.models == {}
+    sensor.read()
+    assert drive.models == {EL: 90.0}
+
+
+@pytest.mark.parametrize(("turned_deg", "believed"), [(9.9, True), (-9.9, True), (10.1, False), (-10.1, False)])
+def test_no_box_turns_its_rotor_by_more_than_ten_degrees_from_reading_to_reading(
+    drive: Journal, turned_deg: float, believed: bool
+) -> None:
+    pot = Pot()
+    sensor = followed(drive, pot)
+    for _ in range(FIRST_READINGS):
+        sensor.read()
+    pot.reading = 0.5 + turned_deg / 180
+    sensor.read()
+    assert drive.models == {EL: pytest.approx(90.0 + turned_deg if believed else 90.0)}
 
 
 @pytest.mark.parametrize("every", [7, 8, 16, 32])

@@ -6,6 +6,7 @@ The controllers are simulated, mjbots' own library is the codec, and time is sim
 from __future__ import annotations
 
 import threading
+import time
 
 import pytest
 
@@ -13,7 +14,9 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
+from hw.moteus.bus import MOTEUS_THREAD, MoteusBus
 from hw.moteus.drive import MoteusDrive
+from hw.moteus.library import SerialPort
 from hw.moteus.orders import MoteusSpec
 from hw.moteus.wire import MoteusInStep
 from hw.ports import Axis, Direction
@@ -188,6 +191,18 @@ def test_in_simulated_time_there_is_no_thread_to_start() -> None:
     before = threading.active_count()
     Bench().rotor.start()
     assert threading.active_count() == before
+
+
+def test_in_real_time_it_starts_the_bus_and_ends_it() -> None:
+    drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2), time.monotonic)
+    rotor = MoteusRotor(drive, MoteusBus(drive, SerialPort("/dev/no-such-adapter")), {}, SHIFT)
+    alarms: list[object] = []
+    rotor.begin(lambda due_s, _ring: alarms.append(due_s))
+    assert alarms == [], "a thread needs no simulated clock"
+    rotor.start()
+    assert MOTEUS_THREAD in [thread.name for thread in threading.enumerate()]
+    rotor.close()
+    assert MOTEUS_THREAD not in [thread.name for thread in threading.enumerate()]
 
 
 def test_only_let_go_takes_the_torque_away() -> None:

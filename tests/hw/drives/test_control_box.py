@@ -82,6 +82,39 @@ def test_a_hold_sends_the_angle_where_it_is_once() -> None:
     assert bench.box.angle_deg == 28.0
 
 
+def test_the_first_measurement_after_an_order_corrects_a_hold_and_no_later_one_does() -> None:
+    """Else a pot that disagrees with the box's own would turn it on and on."""
+    bench = Bench()
+    bench.order(40.0, 2.0)
+    bench.box.hold()
+    for angle_deg in (31.0, 34.0, 37.0):
+        bench.box.found(angle_deg, bench.now_s)
+        bench.box.hold()
+        assert bench.bus.steps[-1] / 4 == 31.0
+    bench.box.order(40.0)
+    bench.box.hold()
+    bench.box.found(33.0, bench.now_s)
+    bench.box.hold()
+    assert bench.bus.steps[-1] / 4 == 33.0
+
+
+@pytest.mark.parametrize(
+    ("from_deg", "target_deg", "rests_deg", "way"), [(20.0, 40.0, 38.5, 1), (50.0, 30.0, 31.5, -1)]
+)
+def test_a_rest_that_was_measured_moves_wiper_and_model(
+    from_deg: float, target_deg: float, rests_deg: float, way: int
+) -> None:
+    bench = Bench()
+    bench.box.found(from_deg, bench.now_s)
+    bench.order(target_deg, 0.0)
+    for angle_deg in (from_deg, *[rests_deg] * 5):
+        bench.now_s += 0.5
+        bench.box.found(angle_deg, bench.now_s)
+    assert bench.box.lead.of(way) == pytest.approx(1.5 + (3.0 - 1.5) / 2)
+    assert bench.order(target_deg + way * 10.0, 20.0) == target_deg + way * (10.0 + 2.25)
+    assert bench.box.angle_deg == pytest.approx(target_deg + way * 10.0)
+
+
 def test_a_step_that_failed_is_sent_again_and_the_top_is_the_chip_s_last_step() -> None:
     bench = Bench()
     bench.bus.broken = True

@@ -62,6 +62,40 @@ def test_the_supply_stays_for_the_other_motor_while_it_runs_or_is_looked_at() ->
     assert bench.on() == set()
 
 
+def test_a_look_at_the_supply_ends_like_a_run() -> None:
+    bench = Bench(master=True)
+    for asked_s, lasts_s in ((0.25, 0.25), (60.0, 0.5)):
+        bench.bank.feed(AZ, bench.clock() + asked_s)
+        assert bench.on() == {"master"}
+        assert bench.bank.supplied
+        assert bench.bank.due_s() == pytest.approx(bench.clock() + lasts_s)
+        bench.clock.sleep(lasts_s - 0.01)
+        assert bench.on() == {"master"}
+        bench.clock.sleep(0.01)
+        assert bench.on() == set()
+        assert not bench.bank.supplied
+        assert bench.bank.due_s() is None
+    bench.bank.feed(AZ, bench.clock())
+    assert bench.on() == set(), "its time is over already"
+    bench.bank.cut()
+    bench.bank.feed(AZ, bench.clock() + 0.25)
+    assert bench.on() == set(), "the supply was cut"
+
+
+def test_a_shorter_look_ends_no_longer_one_and_no_linger() -> None:
+    bench = Bench(master=True)
+    bench.bank.feed(AZ, bench.clock() + 0.5)
+    bench.bank.feed(EL, bench.clock() + 0.1)
+    bench.clock.sleep(0.4)
+    assert bench.on() == {"master"}
+    bench.clock.sleep(0.1)
+    bench.drive(AZ, PLUS)
+    bench.clock.sleep(0.3)
+    bench.bank.feed(AZ, bench.clock() + 0.1)
+    bench.clock.sleep(5.0)
+    assert bench.on() == {"master"}
+
+
 def test_without_a_master_there_is_none_to_switch_off() -> None:
     bench = Bench()
     bench.drive(AZ, PLUS)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import logging
 import os
 import sys
 import threading
@@ -230,13 +231,18 @@ def test_closing_at_once_after_an_aim_still_tells_it_to_hold(bench: Bench) -> No
     assert bench.world.antenna()[0] < 0.2, "half a second without a hold would be 2.5°"
 
 
-def test_no_adapter_is_a_sentence_and_it_is_found_when_it_comes(tmp_path: Path) -> None:
+def test_no_adapter_is_a_sentence_and_it_is_found_when_it_comes(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.DEBUG, "hw.moteus.bus")
     bench = Bench(tmp_path / "fdcanusb")
     bench.bus.start()
     try:
         wait_for(lambda: "there is no such port: plug the adapter in" in bench.complaint())
         with pytest.raises(HardwareError, match="there is no such port"):
             bench.aim(AZ, 10.0)
+        wait_for(lambda: "next try in 0.5 s" in caplog.text)
+        assert "next try in 0.1 s" in caplog.text, "each pause is twice the one before"
         bench.adapter.plug()
         wait_for(bench.answers)
     finally:

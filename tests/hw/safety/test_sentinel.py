@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -56,6 +57,35 @@ def test_dismissed_it_ends_and_leaves_the_lines_alone(switched_off: Path) -> Non
     sentinel.dismiss()
     sentinel.close()
     assert not switched_off.exists()
+
+
+def left_behind() -> tuple[list[str], str]:
+    """The open files of this process, and its children."""
+    children = Path(f"/proc/self/task/{threading.get_native_id()}/children")
+    return os.listdir("/proc/self/fd"), children.read_text()
+
+
+@pytest.mark.usefixtures("switched_off")
+def test_ended_it_leaves_no_process_and_no_file_behind() -> None:
+    before = left_behind()
+    sentinel = Sentinel(LINES)
+    assert os.getsid(sentinel.pid) == sentinel.pid, "Ctrl-C in the terminal is for the program alone"
+    sentinel.dismiss()
+    sentinel.close()
+    assert left_behind() == before
+
+
+@pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGQUIT])
+def test_a_signal_to_the_whole_service_does_not_end_it_before_its_work_is_done(
+    switched_off: Path, sent: signal.Signals
+) -> None:
+    sentinel = Sentinel(LINES)
+    sentinel.renew()
+    os.kill(sentinel.pid, sent)
+    sentinel.renew()
+    assert not switched_off.exists()
+    sentinel.close()
+    assert switched_off.exists()
 
 
 @pytest.mark.usefixtures("switched_off")
@@ -124,11 +154,23 @@ def test_it_is_locked_in_memory_where_it_may_be() -> None:
     assert locked > 0
 
 
-def test_where_it_does_not_start_nothing_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "gpiod.py").write_text("")
+NO_CHIP = (
+    GPIOD
+    + """
+def Chip(path):
+    raise FileNotFoundError(2, "No such file or directory", path)
+"""
+)
+
+
+@pytest.mark.parametrize("gpiod", ["", NO_CHIP], ids=["no gpiod", "no chip"])
+def test_where_it_does_not_start_nothing_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, gpiod: str) -> None:
+    (tmp_path / "gpiod.py").write_text(gpiod)
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join((str(tmp_path), os.environ.get("PYTHONPATH", ""))))
+    before = left_behind()
     with pytest.raises(HardwareError, match="does not start"):
         Sentinel(LINES)
+    assert left_behind() == before
 
 
 def test_what_it_cannot_do_is_a_sentence() -> None:
