@@ -97,7 +97,7 @@ class DigipotDrive:
             if self._powered and self._enable and not all(box.known for box in self._boxes.values()):
                 self._cut()
                 return
-            self._each(self._boxes.values(), ControlBox.hold)
+            self._each([box.hold for box in self._boxes.values()])
 
     def release(self) -> None:
         """Switch the boxes' supply off; the next aim switches it on. Raises HardwareError: no relay is wired for it."""
@@ -129,16 +129,20 @@ class DigipotDrive:
             return min([*moments, self._refresh_s] if self._powered else moments, default=None)
 
     def enforce(self, now_s: float) -> None:
-        """Hold each box whose command has expired. Send the steps again when due. Raises HardwareError."""
+        """Hold each box whose command has expired. Send the steps again when due, also if a chip does not answer.
+
+        Raises HardwareError.
+        """
         with self._changed:
             self._advance()
             expired = [box for box in self._boxes.values() if box.until_s is not None and box.until_s <= now_s]
             if any(self._only_a_cut_stops(box) for box in expired):
                 self._cut()
-            self._each(expired, ControlBox.hold)
+            due = [box.hold for box in expired]
             if self._powered and now_s >= self._refresh_s:
                 self._refresh_s = now_s + REFRESH_S
-                self._each(self._boxes.values(), ControlBox.repeat)
+                due += [box.repeat for box in self._boxes.values()]
+            self._each(due)
 
     def wait_until_due(self, patience_s: float) -> None:
         """For the guard's thread: sleep until `enforce` is due, an order came, or `patience_s` seconds have passed."""
@@ -252,12 +256,12 @@ class DigipotDrive:
         for box in self._boxes.values():
             box.unfed()
 
-    def _each(self, boxes: Iterable[ControlBox], act: Callable[[ControlBox], None]) -> None:
-        """Call `act` for every box, also after a failure. Raises the first HardwareError."""
+    def _each(self, acts: Iterable[Callable[[], None]]) -> None:
+        """Call each of them, also after a failure. Raises the first HardwareError."""
         failures: list[HardwareError] = []
-        for box in boxes:
+        for act in acts:
             try:
-                act(box)
+                act()
             except HardwareError as failure:
                 failures.append(failure)
         if failures:

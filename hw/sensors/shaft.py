@@ -44,7 +44,12 @@ class ReckonedShaft:
     @property
     def fed_deg(self) -> float:
         """How far the shaft should have turned since the last edge."""
-        return self.fed_s * self._speeds_dps.get(self.fed, 0.0)
+        return self.fed_s * abs(self._wanted_dps)
+
+    @property
+    def _wanted_dps(self) -> float:
+        """The speed to which the motor's present supply leads."""
+        return 0.0 if self.fed is Direction.OFF else self.fed * self._speeds_dps[self.fed]
 
     @property
     def at_rest(self) -> bool:
@@ -80,7 +85,7 @@ class ReckonedShaft:
             self.fed_s += seconds
         elif self.speed_dps == 0.0:
             return False
-        wanted_dps = self.fed * self._speeds_dps.get(self.fed, 0.0)
+        wanted_dps = self._wanted_dps
         gap_dps, lag_s = self.speed_dps - wanted_dps, self._cam.lag_s
         fade = math.exp(-seconds / lag_s) if lag_s > 0 else 0.0
         self.speed_dps = wanted_dps + gap_dps * fade

@@ -403,6 +403,35 @@ def test_a_controller_that_lost_its_supply_is_looked_at_before_it_is_told_to_mov
     assert bench.antenna(AZ) == at_deg
 
 
+def test_a_lost_connection_is_why_there_is_no_answer_until_there_is_one() -> None:
+    bench = Bench()
+    bench.alive = False
+    bench.drive.lost("moteus: /dev/fdcanusb: the adapter has gone")
+    bench.clock.sleep(STALE_S - 0.1)
+    bench.drive.sensor(AZ).read()
+    bench.clock.sleep(0.2)
+    for ask in (bench.drive.sensor(AZ).read, lambda: bench.drive.acknowledge(AZ), lambda: bench.follow(EL, 5.0, 0.05)):
+        with pytest.raises(HardwareError, match="the adapter has gone"):
+            ask()
+    bench.alive = True
+    bench.clock.sleep(0.2)
+    bench.follow(AZ, 1.0, 1.0)
+    bench.world.inject("azimuth-silent")
+    bench.clock.sleep(STALE_S + 0.1)
+    with pytest.raises(HardwareError, match=r"^moteus 1 does not answer"):
+        bench.drive.sensor(AZ).read()
+
+
+def test_the_bus_sleeps_until_the_next_order_and_not_at_all_when_one_is_due() -> None:
+    bench = Bench()
+    bench.alive = False
+    due_s = bench.drive.next_order_s()
+    assert 0.0 < due_s - bench.clock() <= 0.08
+    assert bench.drive.next_order_in_s() == pytest.approx(due_s - bench.clock())
+    bench.clock.sleep(1.0)
+    assert bench.drive.next_order_in_s() == 0.0
+
+
 def test_two_axes_cannot_share_an_id() -> None:
     with pytest.raises(HardwareError, match="both have CAN id 1"):
         MoteusDrive(MoteusSpec(1), MoteusSpec(1), SimClock())

@@ -138,6 +138,7 @@ def test_time_never_goes_back_and_the_first_moment_moves_nothing() -> None:
         assert not shaft.advance(earlier_s, *FAR)
         assert (shaft.at_s, shaft.angle_deg) == (51.0, at_deg)
     fresh = ReckonedShaft(Cam(5.0, 1.0, 0.0, speed_dps=6.0))
+    assert (fresh.held_deg, fresh.speed_dps, fresh.fed) == (0.0, 0.0, OFF)
     fresh.feed(PLUS)
     assert not fresh.advance(50.0, *FAR)
     assert (fresh.at_s, fresh.angle_deg, fresh.fed_s) == (50.0, 0.0, 0.0)
