@@ -25,8 +25,8 @@ from hw.ports import Axis
 from hw.safety.lines_off import switch_off
 from rotator.assembly.hands import hands
 from rotator.assembly.kept_files import build_learnt, build_relays_file, build_tries_file
-from rotator.assembly.links import session_maker
 from rotator.assembly.panel import panel_thread
+from rotator.assembly.sessions import session_maker
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated

@@ -1,7 +1,7 @@
-"""From a `[[link]]` table of the configuration to a link that speaks its protocol. Part of the composition root.
+"""From the `[[link]]` tables of the configuration to running links. Part of the composition root.
 
-Knows which class carries the bytes of which kind of port or socket, and which class speaks which protocol. Carries no
-bytes itself.
+Knows which class carries the bytes of which kind of port or socket, and what the connections of a link share.
+`sessions` knows the protocols. Carries no bytes itself.
 """
 
 from __future__ import annotations
@@ -10,12 +10,13 @@ import itertools
 import logging
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from rotator.config.links import FOLLOW, Link, ProtocolName, address
+from rotator.assembly.sessions import BINARY, session_maker
+from rotator.config.links import FOLLOW, Link, address
 from rotator.control.sky.mount import Mount
 from rotator.exchange.sources import Source
 from rotator.links.allowed import Allowed
@@ -29,28 +30,11 @@ from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
 from rotator.orbits.celestial import Sky
-from rotator.protocols.dcu1 import Dcu1Session
-from rotator.protocols.easycomm import Level
-from rotator.protocols.easycomm_session import EasycommSession
-from rotator.protocols.f1efw import F1efwSession
-from rotator.protocols.gs232 import INVALID, Dialect
-from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.lx200_session import Lx200Session
-from rotator.protocols.macdoppler import MacDopplerSession
 from rotator.protocols.move_report import MoveReport
-from rotator.protocols.n1mm import N1mmReport, N1mmSession
-from rotator.protocols.prosistel import Model as Prosistel
-from rotator.protocols.prosistel import ProsistelSession
-from rotator.protocols.pstrotator import ANSWERS_ABOVE, PstRotatorSession
-from rotator.protocols.pstrotatoraz import PstRotatorAzSession
-from rotator.protocols.rc2800 import Rc2800Session
+from rotator.protocols.n1mm import N1mmReport
+from rotator.protocols.pstrotator import ANSWERS_ABOVE
 from rotator.protocols.rotctld_follow import RotctldFollower
-from rotator.protocols.rotctld_session import RotctldSession
-from rotator.protocols.session import Box, Inquiry, Session
-from rotator.protocols.spid import Model
-from rotator.protocols.spid_session import SpidSession
-from rotator.protocols.stellarium import StellariumSession
-from rotator.protocols.wsjtx import WsjtxSession
+from rotator.protocols.session import Inquiry, Session
 from rotator.runtime.client import Client, Rights
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
@@ -72,75 +56,6 @@ class RunningLink(Protocol):
 
     def close(self) -> None:
         """Give back what `open` took. May be called twice, and without `open`."""
-
-
-def session_maker(
-    link: Link,
-    box: Box,
-    remark: Callable[[str], None] = lambda _text: None,
-    *,
-    sky: Sky | None = None,
-    notice: Callable[[str], None] = lambda _text: None,
-    refused: Callable[[str], None] = lambda _reason: None,
-) -> Session:
-    """A new conversation in the link's protocol.
-
-    `remark` takes texts for the log that are worth saying once: what is asked and not supported; `notice` those on what
-    has happened; `refused` why a protocol itself refuses an order: it is out of range. `sky`: None where the
-    configuration does not say where the station is.
-    """
-    match link.protocol:
-        case "gs232a" | "gs232b":
-            return Gs232Session(
-                box,
-                Dialect.A if link.protocol == "gs232a" else Dialect.B,
-                ack=b"\r" if link.acknowledges else b"",
-                empty_line=INVALID if link.rejects_empty_lines else b"",
-                strict=link.strict,
-                may_calibrate=link.may_calibrate,
-                refused=refused,
-            )
-        case "gs232-f1efw":
-            return F1efwSession(box, refused)
-        case "rotctld":
-            return RotctldSession(box)
-        case "rotctld-follow":
-            raise ValueError("there is no conversation on a link that asks")
-        case "easycomm1" | "easycomm2" | "easycomm3":
-            level = {"easycomm1": Level.I, "easycomm2": Level.II, "easycomm3": Level.III}[link.protocol]
-            return EasycommSession(box, level, pstrotator=link.easycomm_answer == "pstrotator")
-        case "rot1prog":
-            return SpidSession(box, Model.ROT1PROG)
-        case "rot2prog":
-            return SpidSession(box, Model.ROT2PROG, link.pulses_per_degree)
-        case "md01":
-            return SpidSession(box, Model.MD01, link.pulses_per_degree)
-        case "dcu1":
-            return Dcu1Session(box, refused)
-        case "pstrotator":
-            return PstRotatorSession(box, remark, sky.site if sky else None)
-        case "pstrotatoraz":
-            return PstRotatorAzSession(box)
-        case "lx200" | "stellarium":
-            if sky is None:
-                raise ValueError(f"{link.protocol} needs the station's place")
-            session = Lx200Session if link.protocol == "lx200" else StellariumSession
-            return session(box, sky, notice)
-        case "prosistel-d":
-            return ProsistelSession(box, Prosistel.D)
-        case "prosistel-c":
-            return ProsistelSession(box, Prosistel.COMBI_TRACK)
-        case "rc2800":
-            return Rc2800Session(box)
-        case "n1mm":
-            return N1mmSession(box, link.rotor_name, remark, refused)
-        case "macdoppler":
-            return MacDopplerSession(box)
-        case "wsjtx":
-            return WsjtxSession(box, link.body)
-
-
-_BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01", "stellarium")
 
 
 def build_links(
@@ -192,7 +107,7 @@ class _Connections:
         )
         if self._link.report_moves:
             session = MoveReport(session, client)
-        text = self._link.protocol not in _BINARY
+        text = self._link.protocol not in BINARY
         return TappedSession(session, self._shared.tap, source, text=text, ended=client.left, came=client.comes_from)
 
     def follower(self) -> Inquiry:

@@ -1,21 +1,23 @@
 """The whole configuration: all its tables, the small ones in this file, and the rules across tables.
 
-The bigger tables have files beside this one, the kinds of rotor have theirs in `kinds/`. Defaults and bounds are in
+The bigger tables have files beside this one, the kinds of rotor have theirs in `kinds/`; `conflicts` knows what two
+parts must not share. Defaults and bounds are in
 these tables, except what differs by kind of rotor: `usual` of each kind. Knows no file on a disk and no hardware.
 """
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, model_validator
 
 from hw.ports import AngleSource, Axis
 from rotator.config.adc import Adc
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable, Azimuth, Elevation
+from rotator.config.conflicts import chips_twice, follows_itself, needs_station, pins_twice, places_twice
 from rotator.config.devices import Lcd, Relays
-from rotator.config.forbidden import ForbiddenTable, Place, forbidden_faults
+from rotator.config.forbidden import Place, forbidden_faults
 from rotator.config.i2c import I2CChip
 from rotator.config.kinds.digipot import Digipot, DigipotKind
 from rotator.config.kinds.kind import EndStop, Kind
@@ -23,8 +25,8 @@ from rotator.config.kinds.moteus import Moteus, MoteusKind
 from rotator.config.kinds.relay_pot import RelayPot
 from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
 from rotator.config.kinds.servo import Servo, ServoKind
-from rotator.config.links import NEEDS_STATION, Link, is_same_place
-from rotator.config.mount_model import MountModelTable
+from rotator.config.links import Link
+from rotator.config.mount import MountTable
 from rotator.config.mqtt import MqttTable
 from rotator.config.page import PageTable
 from rotator.config.panel import LimitsTable, PanelTable
@@ -35,50 +37,10 @@ from rotator.config.sim import Sim
 from rotator.config.sky import SkyTable
 from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.station import StationTable
-from rotator.config.table import Point, Table
+from rotator.config.table import Table
 
 SWITCH_ROOM_DEG = 2.0
 """How far above the place where homing ends at a limit switch the range may begin."""
-
-
-class MountTable(Table):
-    flip: Literal["off", "over-top"] = "off"
-    """`over-top`: the box may turn the antenna over the top. Only after you have watched antenna and cables clear the
-    mast."""
-    north: Literal["true", "magnetic"] = "true"
-    """The north of the azimuth scale; orders and reports always use true north."""
-    declination_deg: float | None = Field(None, ge=-180, le=180)
-    """How far a compass points east of true north (west: minus); `magnetic` needs it."""
-    tolerance: Literal["sky", "axis"] = "sky"
-    """What `tolerance_deg` means, for motors on relays. Degrees on the sky, ahead of a moving target; or, as an Arduino
-    does it, of each axis from the latest order."""
-    park_azimuth_deg: float = Field(0.0, ge=0, le=450)
-    park_elevation_deg: float = Field(0.0, ge=0, le=180)
-    """The park position, on the rotor's own scale."""
-    park_after_s: float = Field(0.0, ge=0, le=86_400)
-    """Park when the last order was carried out this long ago; 0: never."""
-    horizon: list[Point] = Field(default_factory=list)
-    """Points [azimuth, lowest elevation] of trees and roofs; azimuths rise from 0 to below 360."""
-    forbidden: list[ForbiddenTable] = Field(default_factory=list, max_length=16)
-    """Where the antenna would touch something: no path crosses it. 16 at most."""
-    model: MountModelTable = MountModelTable()
-    """How the mount really stands, as `rotator calibrate sky` finds it."""
-
-    @model_validator(mode="after")
-    def _knows_north(self) -> MountTable:
-        if self.north == "magnetic" and self.declination_deg is None:
-            raise ValueError('north = "magnetic" needs declination_deg, how far east of true north a compass points')
-        return self
-
-    @field_validator("horizon")
-    @classmethod
-    def _goes_round(cls, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-        azimuths = [azimuth_deg for azimuth_deg, _ in points]
-        if any(not 0 <= azimuth_deg < 360 for azimuth_deg in azimuths) or azimuths != sorted(set(azimuths)):
-            raise ValueError("azimuths must rise from point to point, from 0 to below 360")
-        if any(not 0 <= elevation_deg <= 90 for _, elevation_deg in points):
-            raise ValueError("elevations must be from 0 to 90")
-        return points
 
 
 class StateTable(Table):
@@ -153,8 +115,9 @@ class Config(Table):
     @model_validator(mode="after")
     def _fits_together(self) -> Config:
         faults = [fault for chip in self.chips() if (fault := chip.fault())]
-        faults += [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
-        faults += self._needs_station()
+        faults += [*pins_twice(self.pins()), *chips_twice(self.chips())]
+        faults += [*places_twice(self.link), *follows_itself(self.link)]
+        faults += [] if self.station.is_known else needs_station(self.link)
         faults += self.adc.faults() if self.uses_adc else []
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
         faults += self._compass_faults()
@@ -264,56 +227,3 @@ class Config(Table):
         if self.rotor.type == "digipot":
             places["digipot's start_deg"] = (self.digipot.azimuth.start_deg, self.digipot.elevation.start_deg)
         return places
-
-    def _pins_twice(self) -> list[str]:
-        users: dict[int, list[str]] = {}
-        for pin, key in self.pins():
-            users.setdefault(pin, []).append(key)
-        return [f"GPIO {pin} is used by {' and '.join(keys)}" for pin, keys in users.items() if len(keys) > 1]
-
-    def _chips_twice(self) -> list[str]:
-        users: dict[tuple[int, int], list[str]] = {}
-        for chip in self.chips():
-            users.setdefault((chip.bus, chip.address), []).append(chip.key)
-        return [
-            f"{' and '.join(sorted(keys, reverse=True))} are both 0x{address:02x} on bus {bus}"
-            for (bus, address), keys in users.items()
-            if len(keys) > 1
-        ]
-
-    def _places_twice(self) -> list[str]:
-        users: dict[tuple[str, str | None, str | None], list[int]] = {}
-        for number, link in enumerate(self.link):
-            users.setdefault((link.where, link.connect, link.udp), []).append(number)
-        return [
-            f"{len(numbers)} links use {where}: {' and '.join(f'link[{number}]' for number in numbers)}: "
-            f"{self._another_place(self.link[numbers[-1]])}"
-            for (where, *_), numbers in users.items()
-            if len(numbers) > 1
-        ]
-
-    def _another_place(self, link: Link) -> str:
-        """What to write where a place is taken."""
-        if not (listens := link.tcp or link.udp):
-            return "give one of them another place" if link.pty else "leave one of them"
-        host, port = listens.rpartition(":")[::2]
-        used = {each.where.rpartition(":")[2] for each in self.link}
-        free = next(number for number in range(int(port) + 1, int(port) + 1000) if str(number) not in used)
-        key = "tcp" if link.tcp else "udp"
-        return f'each needs a port of its own: write {key} = "{host}:{free}" into one of them'
-
-    def _needs_station(self) -> list[str]:
-        return [
-            f"link[{number}]: {link.protocol} needs [station], with latitude_deg and longitude_deg, or locator"
-            for number, link in enumerate(self.link)
-            if link.protocol in NEEDS_STATION and not self.station.is_known
-        ]
-
-    def _follows_itself(self) -> list[str]:
-        return [
-            f'link[{number}].connect = "{link.connect}" is the box itself (link[{other}].tcp = "{server.tcp}"): '
-            "give one of the two another port"
-            for number, link in enumerate(self.link)
-            for other, server in enumerate(self.link)
-            if link.connect and server.tcp and is_same_place(server.tcp, link.connect)
-        ]

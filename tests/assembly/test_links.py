@@ -9,7 +9,8 @@ from typing import get_args
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.assembly.links import build_links, session_maker
+from rotator.assembly.links import build_links
+from rotator.assembly.sessions import session_maker
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis
-from rotator.assembly.links import session_maker
+from rotator.assembly.sessions import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.exchange.orders import Calibrate
 from rotator.orbits.celestial import Sky

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, get_args
 
 import pytest
 
-from rotator.assembly.links import session_maker
+from rotator.assembly.sessions import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.exchange.orders import Order
 from rotator.exchange.sources import Refusal

@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 
-from rotator.assembly.links import session_maker
+from rotator.assembly.sessions import session_maker
 from rotator.config.links import Link, ProtocolName
 from rotator.exchange.orders import Order
 from rotator.exchange.status import AxisStatus, Status
