@@ -1,7 +1,7 @@
-"""`rotator calibrate`: connects a calibration session to the terminal, or to lines on standard input and output.
+"""`rotator calibrate`: starts a calibration session on the terminal, or on standard input and output.
 
-Reads keys and lines, prints, and refuses to start beside a running box, or after a stop that nobody has released.
-`calibrating.session` runs the guides, which ask the questions.
+It refuses to start beside a running box. After a latched stop it first asks whether the mast is free.
+`calibrating.session` runs the guides, which ask the questions; `calibrate_screens` shows them.
 """
 
 from __future__ import annotations
@@ -10,34 +10,29 @@ import asyncio
 import logging
 import os
 import sys
-import textwrap
-import threading
 import time
-from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager, suppress
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 import click
-from rich.console import Console, Group, RenderableType
-from rich.text import Text
+from rich.console import Console
 
 from hw.ports import Axis
 from rotator.assembly.kept_files import build_latch_file
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.station import Station, open_station
 from rotator.calibrating.receiver import BadAddress
-from rotator.calibrating.rig import Rig
 from rotator.calibrating.session import SKY, CalibrationSession
 from rotator.calibrating.sky_rig import check
 from rotator.calibrating.sky_table import Residuals
-from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.cli.announced import announced
+from rotator.cli.calibrate_screens import LivePicture, PlainLines, wrapped
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
 from rotator.cli.reach import connected, consoles
 from rotator.cli.run import make_sure_of
-from rotator.cli.screen import draw, log_to, stop_on_signals
+from rotator.cli.screen import log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import memory_folder, monitor_path
@@ -138,92 +133,6 @@ def _draw(shown: Residuals, svg: Path, screen: PlainLines | LivePicture) -> None
         screen.show(f"The points are drawn in {svg}.")
 
 
-class PlainLines:
-    """Lines out, and lines of standard input in."""
-
-    def __init__(self) -> None:
-        self.typed = TypedAhead()
-        self._console = Console(highlight=False, soft_wrap=True)
-        self._reads = False
-
-    def show(self, *lines: str) -> None:
-        for line in lines:
-            self._console.print(_wrapped(line, self._console), markup=False)
-
-    def ask(self, prompt: str) -> None:
-        self.show(f"> {prompt}" if prompt else "")
-
-    @asynccontextmanager
-    async def open(self, rig: Rig) -> AsyncIterator[None]:
-        if not self._reads:
-            self._reads = True
-            events = asyncio.get_running_loop()
-            threading.Thread(target=_read_lines, args=(self.typed, events), daemon=True).start()
-        yield
-
-
-class LivePicture:
-    """A terminal: single keys, and the state of the rig below the lines.
-
-    A key that is held makes the guide say the same thirty times a second: it is shown once, and counted.
-    """
-
-    def __init__(self) -> None:
-        self.typed = TypedAhead()
-        self._console = Console(highlight=False, soft_wrap=True)
-        self._shown: tuple[str, ...] = ()
-        self._times = 1
-
-    def show(self, *lines: str) -> None:
-        if lines == self._shown:
-            self._times += 1
-            return
-        if self._times > 1:
-            self._console.print(self._count, style="dim", markup=False)
-        for line in lines:
-            self._console.print(_wrapped(line, self._console), markup=False)
-        self._shown, self._times = lines, 1
-
-    def ask(self, prompt: str) -> None:
-        """The picture shows the prompt all the time."""
-
-    @asynccontextmanager
-    async def open(self, rig: Rig) -> AsyncIterator[None]:
-        drawing = asyncio.create_task(draw(partial(self._picture, rig), self.typed.key, self._console))
-        try:
-            yield
-        finally:
-            drawing.cancel()
-            await asyncio.gather(drawing, return_exceptions=True)
-            # The last picture stays, with its count.
-            self._shown, self._times = (), 1
-
-    @property
-    def _count(self) -> str:
-        return f"  ({self._times} times)"
-
-    def _picture(self, rig: Rig) -> RenderableType:
-        state, turns = rig.picture()
-        count = [Text(self._count, style="dim")] if self._times > 1 else []
-        return Group(
-            *count,
-            Text(_wrapped(state, self._console), style="green" if turns else "dim"),
-            Text(_wrapped(f"> {rig.guide.prompt} {self.typed.keyboard.typed}", self._console), style="bold"),
-        )
-
-
-def _wrapped(line: str, console: Console) -> str:
-    """Broken between words where a terminal is narrower. The rows below the first have its indent."""
-    if not console.is_terminal:
-        return line
-    indent = " " * (len(line) - len(line.lstrip()))
-    rows = [
-        textwrap.wrap(row, console.width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
-        for row in line.split("\n")
-    ]
-    return "\n".join("\n".join(each) for each in rows)
-
-
 def _inject(faults: tuple[str, ...], station: Station) -> None:
     """Inject the faults of the option --fault into the simulator."""
     for at_s, name in parse_faults(faults, station.world):
@@ -232,8 +141,8 @@ def _inject(faults: tuple[str, ...], station: Station) -> None:
 
 
 def _refuse_beside_running_box(config: Config, path: Path | None) -> None:
-    """Raises CommandFailed if the box is running: two programs could open the same serial port or I2C chip. Of a
-    simulated rotor only the box with the same sockets and files is in the way."""
+    """Raises CommandFailed if the box is running: two programs could open the same serial port or I2C chip. With a
+    simulated rotor only a box that uses the same sockets and files counts."""
     if config.rotor.hardware == "sim":
         make_sure_of(monitor_path(config.state.path, config.monitor.path, os.environ), path)
         return
@@ -241,43 +150,25 @@ def _refuse_beside_running_box(config: Config, path: Path | None) -> None:
         if box := connected(place):
             box.close()
             raise CommandFailed(
-                "the box is running, or another calibration, and two programs cannot have the motors: end it (sudo "
-                "systemctl stop rotator)"
+                "the box is running, or another calibration, and only one program may drive the motors. End it first: "
+                "sudo systemctl stop rotator"
             )
 
 
 def _refuse_stopped(config: Config, path: Path | None) -> None:
-    """After a stop somebody may be at the mast still: a person at the terminal says that nobody is, and by that ends
-    the stop. Raises CommandFailed where nobody says so."""
+    """After a latched stop a person may still be at the mast. So the person at the terminal must confirm that the mast
+    is free, which ends the stop. Raises CommandFailed without that confirmation."""
     kept = build_latch_file(config, memory_folder(config.state.path, path, os.environ))
     if (stopped := kept.load()) is None:
         return
     held = spoken(held_by(stopped.by, storm=stopped.storm))
     if not sys.stdin.isatty():
         raise CommandFailed(
-            f"{held}: nothing turns in a calibration either. Call it in a terminal: there it asks whether somebody is "
-            "at the mast, and ends the stop"
+            f"{held}: nothing turns in a calibration either. Start it in a terminal: there it asks whether the mast "
+            "is free of people, and can end the stop"
         )
-    click.echo(_wrapped(f"{held}, and nothing turns in a calibration either.", Console()))
-    if not click.confirm("Is nobody at the mast, and shall the stop end?"):
+    click.echo(wrapped(f"{held}, and nothing turns in a calibration either.", Console()))
+    if not click.confirm("Is the mast free of people, and shall the stop end?"):
         raise CommandFailed("the stop stays: nothing was done")
     if not kept.save(None) and not kept.outlives:
         raise CommandFailed("the stop stays: its file cannot be written")
-
-
-def _read_lines(typed: TypedAhead, events: asyncio.AbstractEventLoop) -> None:
-    """Read standard input in a thread of its own: files, pipes and terminals are read alike."""
-    rest = b""
-    while chunk := os.read(sys.stdin.fileno(), 4096):
-        *lines, rest = (rest + chunk).split(b"\n")
-        for line in lines:
-            _hand_over(events, typed, line.decode("utf-8", "replace"))
-    if rest:
-        _hand_over(events, typed, rest.decode("utf-8", "replace"))
-    _hand_over(events, typed, None)
-
-
-def _hand_over(events: asyncio.AbstractEventLoop, typed: TypedAhead, line: str | None) -> None:
-    # After the end of the event loop no guide waits for the line.
-    with suppress(RuntimeError):
-        events.call_soon_threadsafe(typed.line, line)

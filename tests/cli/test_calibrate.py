@@ -195,9 +195,7 @@ def kept_station(folder: Path) -> Path:
 
 
 @pytest.mark.parametrize("storm", [False, True])
-def test_nothing_turns_after_a_stop_of_the_box_that_nobody_has_released(
-    start: Start, tmp_path: Path, storm: bool
-) -> None:
+def test_nothing_turns_after_a_stop_of_the_box_that_is_not_released(start: Start, tmp_path: Path, storm: bool) -> None:
     path = kept_station(tmp_path)
     LatchFile(tmp_path / FILE_NAME).save(Latch("panel", storm=storm))
     for tasks in ([], ["north"]):
@@ -205,7 +203,7 @@ def test_nothing_turns_after_a_stop_of_the_box_that_nobody_has_released(
         assert code == 1
         words = " ".join(text.split())
         assert f"{'storm park' if storm else 'stopped'} by the panel before the restart: " in words
-        assert "Call it in a terminal: there it asks whether somebody is at the mast" in words
+        assert "Start it in a terminal: there it asks whether the mast is free of people" in words
 
 
 def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tmp_path: Path) -> None:
@@ -219,7 +217,7 @@ def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tm
     assert stopped.by.startswith("console")
     text, code = finish(start("--config", str(path), "azimuth"))
     assert code == 1
-    assert "Call it in a terminal" in " ".join(text.split())
+    assert "Start it in a terminal" in " ".join(text.split())
 
 
 def refuse(folder: Path) -> Path:
@@ -271,7 +269,7 @@ def test_a_stop_that_is_ended_where_the_card_refuses_stays_ended(
     LatchFile(tmp_path / FILE_NAME).save(Latch("keyboard"))
     refuse(tmp_path)
     calibration = start_in_terminal("calibrate", "--config", path)
-    calibration.until("Is nobody at the mast, and shall the stop end")
+    calibration.until("Is the mast free of people, and shall the stop end")
     calibration.press("y\r")
     calibration.until("Setting up the azimuth")
     assert LatchFile(tmp_path / FILE_NAME, memory).load() is None
@@ -279,14 +277,14 @@ def test_a_stop_that_is_ended_where_the_card_refuses_stays_ended(
 
 
 @pytest.mark.parametrize(("answer", "left"), [("y", False), ("n", True)])
-def test_at_a_terminal_a_person_says_that_nobody_is_at_the_mast(
+def test_at_a_terminal_a_person_says_that_the_mast_is_free(
     start_in_terminal: Callable[..., Any], tmp_path: Path, answer: str, left: bool
 ) -> None:
     path = kept_station(tmp_path)
     kept = LatchFile(tmp_path / FILE_NAME)
     kept.save(Latch("keyboard"))
     calibration = start_in_terminal("calibrate", "--config", path)
-    asked = calibration.until("Is nobody at the mast, and shall the stop end")
+    asked = calibration.until("Is the mast free of people, and shall the stop end")
     assert "stopped by the keyboard before the restart: nothing moves until resume" in " ".join(asked.split())
     calibration.press(f"{answer}\r")
     calibration.until("Setting up the azimuth" if not left else "the stop stays: nothing was done")
