@@ -106,7 +106,7 @@ class Api:
         return (
             get("/api/status", self._read(lambda: as_object(behind.status())), status),
             get("/api/box", self._read(lambda: box(behind.station, behind.status())), station),
-            get("/api/past", self._read(behind.scene.past), past),
+            get("/api/past", self._read(behind.scene.past.rows), past),
             get("/api/path", self._read(behind.scene.path), path),
             get("/api/log", self._log, log, access=PAIRED),
             live("/api/live", self._serve_live, pictures, access=READING, query={}, more={}),

@@ -17,7 +17,8 @@ from rotator.store.paired import Paired
 from rotator.web import assets
 from rotator.web.connections import Connections
 from rotator.web.doors import Doors
-from rotator.web.pairing import LASTS_S, NotPairedError, Pairings
+from rotator.web.pairing import LASTS_S, Pairings
+from rotator.web.pairing_code import NotPairedError
 from rotator.web.route import MOST_BODY, Handler
 
 COOKIE = "rotator"

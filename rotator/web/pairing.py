@@ -1,45 +1,28 @@
-"""Who may move the antenna from the page: the code that pairs a browser, and the tokens of paired browsers.
+"""Who may move the antenna from the page: the tokens of paired browsers and programs.
 
-Knows codes, tries, waits and tokens. Time comes from two clocks. Does not know HTTP, nor where the code is shown. A
+Knows tokens, their owners and their end. Does not know HTTP. `pairing_code` knows the code that pairs a browser. A
 token is shown once, to its owner; only its hash is kept.
 """
 
 from __future__ import annotations
 
 import hashlib
-import hmac
 import logging
 import secrets
 import threading
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 
 from rotator.store.paired import LONGEST_NAME, MOST, Paired, PairedFile, PairedList
+from rotator.web.pairing_code import PairingCode
 
 log = logging.getLogger(__name__)
 
-CODE_S = 120.0
-TRIES = 5
-WAIT_S, LONGEST_WAIT_S = 300.0, 14_400.0
-"""Wrong codes after which no browser can begin, and the seconds of that wait. It doubles until a browser is paired. A
-person at the box can always begin: `rotator pair`."""
-UNUSED = 3
-"""Unused codes before a browser has to wait for the next one: the display is needed for other things."""
-MOST_TRIES = 50
-"""Tries of all machines together at the code of `rotator pair`. Each machine has five, so that a stranger cannot use
-up the owner's tries."""
 LASTS_S = 180 * 86_400.0
 """Seconds: a pairing unused this long ends."""
 NOTED_S = 86_400.0
 """Seconds: a visit is written to the file at most once a day."""
-_BY_BROWSER = ""
-"""In place of a machine's address: tries at codes that browsers requested are counted together."""
-
-
-class NotPairedError(Exception):
-    """The pairing fails. The text says why, and what to do."""
 
 
 class Pairings:
@@ -56,7 +39,6 @@ class Pairings:
         trusted: Callable[[], bool] = lambda: True,
     ) -> None:
         self._file = file
-        self._clock = clock
         self._utc = utc
         self._trusted = trusted
         self.on_gone: Callable[[Paired], None] = lambda _gone: None
@@ -68,85 +50,32 @@ class Pairings:
         self._highest = kept.highest
         self._written = self._list()
         """The content of the file."""
-        self._code = ""
-        self._by_person = False
-        self._until_s = 0.0
-        self._wrong: Counter[str] = Counter()
-        """The number of wrong codes of each machine."""
-        self._rounds = self._unused = 0
-        self._waits_until_s = 0.0
+        self._code = PairingCode(clock)
 
     # --- the code
 
     def begin(self) -> str:
         """A new code, for a person at the box."""
         with self._lock:
-            self._wrong = Counter({_BY_BROWSER: self._wrong[_BY_BROWSER]})
-            return self._new(by_person=True)
-
-    def _new(self, *, by_person: bool) -> str:
-        self._code, self._by_person = f"{secrets.randbelow(1_000_000):06d}", by_person
-        self._until_s = self._clock() + CODE_S
-        return self._code
+            return self._code.begin()
 
     def ask(self) -> None:
         """Show a code at the box, requested by a browser. Raises NotPairedError while the browser has to wait."""
         with self._lock:
-            if self._shown():
-                return
-            waits_s = self._waits_until_s - self._clock()
-            if waits_s > 0:
-                raise NotPairedError(_wait(waits_s))
-            self._new(by_person=False)
-            self._unused += 1
-            if self._unused >= UNUSED:
-                self._waits_until_s = self._until_s + WAIT_S
+            self._code.ask()
 
     def shown(self) -> str:
         """The code that the box shows now; empty: none."""
         with self._lock:
-            return self._shown()
+            return self._code.shown()
 
     def enter(self, typed: str, name: str, host: str = "?") -> tuple[str, Paired]:
         """Returns the new token and its owner. `host`: the machine that sent the code. Raises NotPairedError."""
         with self._lock:
-            added = self._entered(typed, name, host)
+            self._code.use(typed, host)
+            added = self._add(name)
         self.keep()
         return added
-
-    def _entered(self, typed: str, name: str, host: str) -> tuple[str, Paired]:
-        code = self._shown()
-        if not code:
-            waits_s = self._waits_until_s - self._clock()
-            raise NotPairedError(_wait(waits_s) if waits_s > 0 else "no code is shown now: ask for one first")
-        who = host if self._by_person else _BY_BROWSER
-        if self._by_person and self._wrong[who] >= TRIES:
-            raise NotPairedError(_wait(self._until_s - self._clock()))
-        if not hmac.compare_digest(typed.encode("utf-8", "replace"), code.encode()):
-            self._wrong[who] += 1
-            left = TRIES - self._wrong[who]
-            if left > 0:
-                raise NotPairedError(f"that is not the code on the display; {_tries(left)} left")
-            raise NotPairedError(_wait(self._used_up()))
-        self._code, self._waits_until_s, self._rounds, self._unused = "", 0.0, 0, 0
-        self._wrong.clear()
-        return self._add(name)
-
-    def _used_up(self) -> float:
-        """The tries of a machine, or of all browsers together, are used up. Returns the seconds to wait."""
-        if self._by_person:
-            if self._wrong.total() - self._wrong[_BY_BROWSER] >= MOST_TRIES:
-                self._code = ""
-            return self._until_s - self._clock()
-        wait_s: float = min(WAIT_S * 2.0 ** min(self._rounds, 10), LONGEST_WAIT_S)
-        self._rounds += 1
-        self._wrong[_BY_BROWSER] = 0
-        self._code, self._waits_until_s = "", self._clock() + wait_s
-        log.warning("page: %d wrong codes: no browser is paired for %.0f s", TRIES, wait_s)
-        return wait_s
-
-    def _shown(self) -> str:
-        return self._code if self._clock() < self._until_s else ""
 
     # --- those that are paired
 
@@ -240,15 +169,6 @@ def _digest(token: str) -> str:
 def _tidy(name: str) -> str:
     kept = "".join(char for char in name if char.isprintable() and char not in "<>#").strip()
     return kept[:LONGEST_NAME].strip() or "browser"
-
-
-def _tries(count: int) -> str:
-    return f"{count} tries" if count > 1 else "one try"
-
-
-def _wait(seconds: float) -> str:
-    minutes = max(1, round(seconds / 60))
-    return f"too many wrong codes, or unused ones: try again in {minutes} min, or type `rotator pair` at the box"
 
 
 def _day(utc_s: float) -> str:

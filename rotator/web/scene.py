@@ -1,4 +1,4 @@
-"""The content of the page: the present state of the box in one object for the browser, and the last minutes.
+"""The content of the page: the present state of the box in one object for the browser.
 
 Knows a status, and makes plain values of it. Words come from `rotator.views`, so that page, terminal and display say
 the same. Knows no HTTP and no browser.
@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import re
 import threading
-from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
-from math import isnan, nan
 from typing import Any
 
 from hw.ports import Axis, Direction
@@ -26,12 +24,10 @@ from rotator.links.wire import Wire
 from rotator.protocols.status_object import as_object
 from rotator.views import words
 from rotator.views.sky_plot import Way, aimed_at, off_deg, pointing
+from rotator.web.past import Past, target_deg
 
-KEPT_S, EVERY_S = 600, 1.0
-"""Seconds that the strip chart and the trail go back, and seconds between two points."""
 LAST_BYTES = 24
 MOST_POINTS = 180
-ZENITH_DEG, TURN_DEG = 90.0, 360.0
 ITSELF = "the box itself"
 _PAGE = re.compile(r"\bpage(?:#(\d+))?\b")
 _LAMPS = {Axis.AZIMUTH: ("cw", "ccw"), Axis.ELEVATION: ("up", "down")}
@@ -102,7 +98,7 @@ class Scene:
         self._named = named
         self._tracks = tracks
         self._utc = utc
-        self._past: deque[tuple[float, ...]] = deque(maxlen=int(KEPT_S / EVERY_S))
+        self.past = Past(status)
         self._path = _Path("", "", [])
         self._counting = threading.Lock()
         """Orders come from several threads, some at the same moment."""
@@ -121,22 +117,6 @@ class Scene:
             with self._counting:
                 self._flights += 1
                 self._path = _Path(f"{self._flights} {order.name}", order.name, points)
-
-    def note(self) -> None:
-        """Add a point to the past."""
-        status = self._status()
-        row = [status.at_s]
-        for axis, aim_deg in zip((status.azimuth, status.elevation), _aims(status), strict=True):
-            row += [_number(axis.points_deg), _number(aim_deg)]
-        self._past.append((*row, _number(off_deg(status))))
-
-    def past(self) -> dict[str, Any]:
-        """Rows: seconds ago, azimuth, its target, elevation, its target, error; null: no value."""
-        now_s = self._status().at_s
-        return {
-            "every_s": EVERY_S,
-            "rows": [[round(row[0] - now_s, 2), *(_or_null(value) for value in row[1:])] for row in self._past],
-        }
 
     def path(self) -> dict[str, Any]:
         """The directions of the pass that is flown, or that the antenna waits for. `key`: unique for each flight."""
@@ -157,8 +137,8 @@ class Scene:
             "target": _rounded(aimed_at(status)),
             "azimuth_deg": _short(status.azimuth.points_deg),
             "elevation_deg": _short(status.elevation.points_deg),
-            "azimuth_target_deg": _short(_target(status.azimuth)),
-            "elevation_target_deg": _short(_target(status.elevation)),
+            "azimuth_target_deg": _short(target_deg(status.azimuth)),
+            "elevation_target_deg": _short(target_deg(status.elevation)),
             "readings": [_short(axis.raw, 4) for axis in (status.azimuth, status.elevation)],
             "off_deg": _short(off_deg(status), 2),
             "starts": _starts(status),
@@ -203,22 +183,6 @@ class Scene:
 
 
 _MOODS = {words.GOOD: "good", words.PLAIN: "plain", words.WARNS: "warns", words.ALARMS: "alarms"}
-
-
-def _target(axis: AxisStatus) -> float | None:
-    return None if axis.target_deg is None else axis.target_deg + axis.correction_deg
-
-
-def _aims(status: Status) -> tuple[float | None, float | None]:
-    """The wanted angle of each axis, on its own scale: in a planned pass the satellite's, on the antenna's turn."""
-    azimuth, elevation = status.azimuth, status.elevation
-    there = aimed_at(status) if status.flown else None
-    if there is None or azimuth.points_deg is None or elevation.points_deg is None:
-        return _target(azimuth), _target(elevation)
-    azimuth_deg, elevation_deg = there
-    if elevation.points_deg > ZENITH_DEG:
-        azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
-    return azimuth_deg + TURN_DEG * round((azimuth.points_deg - azimuth_deg) / TURN_DEG), elevation_deg
 
 
 def _starts(status: Status) -> int | None:
@@ -266,11 +230,3 @@ def _rounded(way: Way | None) -> list[float] | None:
 
 def _short(number: float | None, digits: int = 1) -> float | None:
     return None if number is None else round(number, digits) + 0.0
-
-
-def _number(number: float | None) -> float:
-    return nan if number is None else number
-
-
-def _or_null(number: float) -> float | None:
-    return None if isnan(number) else round(number, 2)

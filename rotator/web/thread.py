@@ -132,7 +132,7 @@ class PageThread:
 
         behind = self._behind()
         connections = Connections(behind.doors.lets_in, self._clock)
-        live = Live(behind.scene.now, behind.scene.note, self._clock)
+        live = Live(behind.scene.now, behind.scene.past.note, self._clock)
         runner = web.AppRunner(
             Api(behind, live, connections).application(),
             access_log=None,

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from rotator.store.paired import MOST, PairedFile, PairedList
-from rotator.web.pairing import CODE_S, LASTS_S, MOST_TRIES, TRIES, WAIT_S, NotPairedError, Pairings
+from rotator.web.pairing import LASTS_S, Pairings
+from rotator.web.pairing_code import CODE_S, MOST_TRIES, TRIES, WAIT_S, NotPairedError
 
 
 class Clocks:
