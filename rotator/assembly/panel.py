@@ -18,6 +18,7 @@ from rotator.config.model import Config
 from rotator.exchange.orders import Order
 from rotator.exchange.status import Status
 from rotator.panel.inputs import KnobWiring
+from rotator.panel.lights import LightWiring
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.common import BlockedDirections, no_switches
@@ -57,9 +58,11 @@ def panel_parts(config: Config, board: Board) -> PanelParts:
         has_stop=table.stop is not None,
         sensors=_inputs(config, board),
         outputs=outputs,
-        lamps=table.lamps,
-        meters={Axis(name): output for name, output in table.meters.items()},
-        meter_full_scale=table.meter_full_scale,
+        lights=LightWiring(
+            lamps=table.lamps,
+            meters={Axis(name): output for name, output in table.meters.items()},
+            meter_full_scale=table.meter_full_scale,
+        ),
     )
 
 

@@ -15,16 +15,16 @@ from dataclasses import dataclass, field
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
-from rotator.exchange.orders import Aim, Jog, Mode, Nudge, Order, Release, Remark, SetMode, Stop
+from rotator.exchange.orders import Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.calibration import BEGINNING, PanelCalibration, Stage
-from rotator.panel.inputs import Contact, JogSwitches, Knob, KnobWiring, ModeSwitch, StopButton
+from rotator.panel.inputs import Contact, JogSwitches, KnobWiring, ModeSwitch, StopButton
+from rotator.panel.knobs import Knobs
 
 LEAST_INDEX, MOST_INDEX = -7, 8
 """The range of the index by which the jog switches shift an order."""
 DATA_LIT_S = 0.1
 """Seconds that the data lamp is lit after bytes from a program."""
-KNOB_OPEN = "a wire is broken, it moves nothing (rotator help knob-open-or-shorted)"
 LAMPS = ("manual", "park", "auto", "jog", "data", "motor", "stop", "azimuth_pulse", "elevation_pulse", "switch")
 
 
@@ -83,16 +83,12 @@ class Panel:
         self._button = StopButton()
         self._switch = ModeSwitch()
         self._jog = JogSwitches()
-        self._knobs = {axis: Knob(settings.knobs, (full_scales or {}).get(axis)) for axis in Axis}
-        self._remarked: set[Axis] = set()
-        """The knobs whose broken wire was reported."""
+        self._knobs = Knobs(settings.knobs, full_scales or {})
         self._started_s: float | None = None
         self._calibration: PanelCalibration | None = None
         self._mode: Mode | None = None if settings.mode_switch else Mode.AUTO
         """The last mode that was set."""
         self._indices = dict.fromkeys(Axis, 0)
-        self._turned: dict[Axis, float | None] = {}
-        """For each turned knob whose angle is not ordered yet: the place where it rested before."""
         self._jogging: Contact | None = None
         self._jogged_s = 0.0
         self._nudged = False
@@ -107,7 +103,7 @@ class Panel:
         turned = self._switch.see(now_s, inputs.mode_bits)
         readings = {Axis.AZIMUTH: inputs.azimuth_knob, Axis.ELEVATION: inputs.elevation_knob}
         full_scales, notes = self._calibrate(inputs, readings, first=first)
-        knobs_turned = {axis for axis, knob in self._knobs.items() if knob.see(now_s, readings[axis])}
+        knobs_turned = self._knobs.see(now_s, readings)
         orders: list[Order] = []
         if not self._button.open:
             orders = self._mode_orders(turned=turned)
@@ -118,8 +114,8 @@ class Panel:
         orders = [
             *orders,
             *self._jog_orders(now_s, inputs.jog, status, free=free),
-            *self._knob_orders(now_s, knobs_turned, status, free=free),
-            *self._remarks(),
+            *self._knobs.orders(now_s, knobs_turned, status, may_aim=free and self._mode is Mode.MANUAL),
+            *self._knobs.remarks(),
         ]
         if inputs.data:
             self._data_until_s = now_s + DATA_LIT_S
@@ -161,9 +157,7 @@ class Panel:
         if self._calibration is None:
             return None, ()
         found, more = self._calibration.full_scales(readings)
-        for axis, full_scale in found.items():
-            self._knobs[axis] = Knob(self._settings.knobs, full_scale)
-        return ({axis: knob.full_scale for axis, knob in self._knobs.items()} if found else None), notes + more
+        return self._knobs.calibrate(found), notes + more
 
     # --- the jog switches
 
@@ -197,42 +191,6 @@ class Panel:
         self._indices[axis] = index
         return [Nudge(axis, index * self._settings.nudge_deg[axis])] if self._nudged else []
 
-    # --- the knobs
-
-    def _knob_orders(self, now_s: float, turned: set[Axis], status: Status, *, free: bool) -> list[Order]:
-        """One order for the knobs that rest at a new place, after all knobs rest. An axis without a new place keeps its
-        target. A knob turns only its own axis, also when the antenna is over the top.
-        """
-        if not free or self._mode is not Mode.MANUAL:
-            self._turned = {}
-            return []
-        began = {axis: self._knobs[axis].rest for axis in turned} | self._turned
-        self._turned = {axis: rest for axis, rest in began.items() if self._knobs[axis].share is not None}
-        if not self._turned or not all(self._knobs[axis].still(now_s) for axis in self._turned):
-            return []
-        rests = {axis: self._knobs[axis].rest for axis in self._turned}
-        angles_deg = {
-            axis: _angle_deg(status.axis(axis), rest)
-            for axis, rest in rests.items()
-            if rest is not None and rest != self._turned[axis]
-        }
-        self._turned = {}
-        if not angles_deg:
-            return []
-        return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION), place=True)]
-
-    def _remarks(self) -> list[Order]:
-        """Remarks about a knob's broken wire: one when it begins, one when it ends."""
-        broken = {axis for axis, knob in self._knobs.items() if knob.trouble}
-        told: list[Order] = [
-            Remark(axis, f"the panel's {axis.value} knob {self._knobs[axis].trouble}: {KNOB_OPEN}", "KNOB OPEN")
-            for axis in Axis
-            if axis in broken - self._remarked
-        ]
-        told += [Remark(axis) for axis in Axis if axis in self._remarked - broken]
-        self._remarked = broken
-        return told
-
     # --- lamps and meters
 
     def _lamps(self, inputs: PanelInputs, status: Status) -> dict[str, bool]:
@@ -251,19 +209,16 @@ class Panel:
     def _meters(self, status: Status) -> dict[Axis, float]:
         """What each meter shows: the knob while the operator sets it, otherwise the angle of the axis."""
         meters: dict[Axis, float] = {}
-        for axis, knob in self._knobs.items():
+        for axis in Axis:
             setting = self._calibration is not None and self._calibration.stage is Stage.KNOBS
-            shown = setting or self._mode is Mode.PARK or axis in self._turned
-            meters[axis] = knob.share if shown and knob.share is not None else _share(status.axis(axis))
+            shown = setting or self._mode is Mode.PARK or self._knobs.is_turned(axis)
+            share = self._knobs.share(axis) if shown else None
+            meters[axis] = share if share is not None else _share(status.axis(axis))
         return meters
 
 
 def _driven(status: Status) -> bool:
     return any(axis.drive is not Direction.OFF for axis in (status.azimuth, status.elevation))
-
-
-def _angle_deg(axis: AxisStatus, share: float) -> float:
-    return axis.min_deg + share * (axis.max_deg - axis.min_deg)
 
 
 def _share(axis: AxisStatus) -> float:

@@ -1,8 +1,8 @@
-"""The panel's threads: read switches and knobs, pass on the panel's orders, light lamps and move meters.
+"""The panel's threads: read switches and knobs, pass on the panel's orders, show its lamps and meters.
 
-Knows when to read, and the wiring of the outputs. The panel decides. The switches have a thread that uses no bus, so a
-bus that hangs does not disable the stop button. Knobs and outputs have a second thread. A stop button that cannot be
-read counts as pressed; a knob or a jog switch without a recent reading counts as not fitted.
+Knows when to read and to write. The panel decides, and `lights` knows the outputs. The switches have a thread that uses
+no bus, so a bus that hangs does not disable the stop button. Knobs and outputs have a second thread. A stop button that
+cannot be read counts as pressed; a knob or a jog switch without a recent reading counts as not fitted.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ import threading
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Protocol
 
 from hw.ports import AngleSensor, Axis, HardwareError, SwitchInputs
 from rotator.exchange.orders import Order, Stop
 from rotator.exchange.status import Status
+from rotator.panel.lights import Lights, LightWiring, PanelOutputs
 from rotator.panel.panel import Panel, PanelInputs, PanelOutput
 
 log = logging.getLogger(__name__)
@@ -28,32 +28,15 @@ PERIOD_S = 0.05
 STALE_S = 0.25
 """Seconds: an older reading does not count, so that a jog ends when the bus hangs."""
 RETRY_S = 0.5
-CHECK_S = 1.0
-"""Seconds between two checks of the output chip for a reset."""
 AGAIN_S = 10.0
 """Seconds of pause after a failed write of the full scales."""
 KNOBS, LAMPS = "knobs and jog switches", "lamps and meters"
-STEPS = 255
-"""Steps of a meter. The needle shows no finer steps, and they would load the bus."""
 JOIN_S = 1.0
-
-
-class PanelOutputs(Protocol):
-    """Outputs that are on for a share of the time, by number."""
-
-    def start(self) -> None:
-        """Set the outputs up from any state, all off. Raises HardwareError."""
-
-    def check(self) -> None:
-        """Raises HardwareError when the chip has lost its settings."""
-
-    def duty(self, channel: int, share: float) -> None:
-        """Switch one output on for this share of the time, 0 to 1. Raises HardwareError."""
 
 
 @dataclass(frozen=True, slots=True)
 class PanelParts:
-    """The parts that are fitted, and the output of each."""
+    """The parts that are fitted."""
 
     switches: SwitchInputs | None = None
     """Those of `mode_msb`, `mode_lsb`, `calibrate` and `stop` that are fitted."""
@@ -61,11 +44,8 @@ class PanelParts:
     sensors: Mapping[str, AngleSensor] = field(default_factory=dict)
     """`jog`, `azimuth_knob`, `elevation_knob`: shares of their supply."""
     outputs: PanelOutputs | None = None
-    lamps: Mapping[str, int] = field(default_factory=dict)
-    """The output of each lamp, by the lamp's name."""
-    meters: Mapping[Axis, int] = field(default_factory=dict)
-    meter_full_scale: float = 1.0
-    """The share of the time that a meter's output is on at full scale."""
+    lights: LightWiring = field(default_factory=LightWiring)
+    """The output of each lamp and meter."""
 
 
 class PanelThread:
@@ -106,9 +86,7 @@ class PanelThread:
         self._retry_s = {KNOBS: -math.inf, LAMPS: -math.inf}
         self._troubles: dict[str, str] = {}
         self._output: PanelOutput | None = None
-        self._shown: dict[int, float] = {}
-        self._started = False
-        self._check_s = 0.0
+        self._lights = Lights(parts.outputs, parts.lights) if parts.outputs else None
         self._stopping = threading.Event()
         self._threads = [
             threading.Thread(target=self._run, args=(work,), name=name, daemon=True)
@@ -212,24 +190,13 @@ class PanelThread:
 
     def show(self, now_s: float) -> None:
         """Write the lamps and meters that have changed."""
-        wanted, outputs = self._output, self._parts.outputs
-        if outputs is None or wanted is None or now_s < self._retry_s[LAMPS]:
+        if self._output is None or self._lights is None or now_s < self._retry_s[LAMPS]:
             return
         try:
-            if not self._started:
-                outputs.start()
-                self._started, self._shown, self._check_s = True, {}, now_s + CHECK_S
-            elif now_s >= self._check_s:
-                outputs.check()
-                self._check_s = now_s + CHECK_S
-            for channel, share in self._shares(wanted).items():
-                if self._shown.get(channel, 0.0) != share:
-                    outputs.duty(channel, share)
-                    self._shown[channel] = share
+            self._lights.show(now_s, self._output)
         except HardwareError as fault:
-            self._trouble(LAMPS, str(fault))
-            self._started = False
             self._retry_s[LAMPS] = now_s + RETRY_S
+            self._trouble(LAMPS, str(fault))
             return
         self._trouble(LAMPS, "")
 
@@ -244,18 +211,9 @@ class PanelThread:
             self._keep_again_s = now_s + AGAIN_S
 
     def dark(self) -> None:
-        """Switch each lamp and meter off. If the chip does not answer, they stay as they are."""
-        if self._parts.outputs is not None and (self._started or self._shown):
-            with suppress(HardwareError):
-                for channel in (*self._parts.lamps.values(), *self._parts.meters.values()):
-                    self._parts.outputs.duty(channel, 0.0)
-            self._shown = {}
-
-    def _shares(self, output: PanelOutput) -> dict[int, float]:
-        """The share of each output channel."""
-        meters, full = self._parts.meters, self._parts.meter_full_scale
-        lamps = {channel: float(output.lamps[name]) for name, channel in self._parts.lamps.items()}
-        return lamps | {channel: round(output.meters[axis] * STEPS) / STEPS * full for axis, channel in meters.items()}
+        """Switch each lamp and meter off. If their chip does not answer, they stay as they are."""
+        if self._lights is not None:
+            self._lights.dark()
 
     def _trouble(self, what: str, text: str) -> None:
         """Log a fault of a part once when it begins and once when it ends."""

@@ -21,6 +21,7 @@ from hw.ports import AngleSource, Axis
 from hw.sensors.pot import PotSensor, Reference
 from rotator.exchange.orders import Mode, Order, Release, SetMode, Stop
 from rotator.exchange.status import AxisStatus, Status
+from rotator.panel.lights import LightWiring
 from rotator.panel.panel import LAMPS, Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
 
@@ -96,9 +97,7 @@ class Bench:
                 has_stop=True,
                 sensors={name: PotSensor(adc, channel, supply) for name, channel in INPUTS.items()},
                 outputs=Pca9685(bus, 0x41, sleep, frequency_hz=1000.0),
-                lamps=LAMP_OUTPUTS,
-                meters=METERS,
-                meter_full_scale=FULL_SCALE,
+                lights=LightWiring(LAMP_OUTPUTS, METERS, FULL_SCALE),
             ),
             self._asked,
             self._take,

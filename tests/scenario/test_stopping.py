@@ -25,7 +25,8 @@ from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.exchange.orders import Aim
 from rotator.links.wire import Wire
-from rotator.panel.thread import PANEL_THREADS, PanelOutputs
+from rotator.panel.lights import PanelOutputs
+from rotator.panel.thread import PANEL_THREADS
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
