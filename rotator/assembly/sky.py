@@ -10,9 +10,10 @@ from pathlib import Path
 
 from rotator.config.model import Config
 from rotator.config.station import StationTable
-from rotator.orbits.catalogue import Catalogue, Read, read_file
+from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
+from rotator.orbits.element_files import Read, read_file
 from rotator.orbits.locator import from_locator
 from rotator.store import uploads
 from rotator.store.fetches import FOLDER, file_of

@@ -25,7 +25,7 @@ from urllib.request import (
 )
 
 from rotator import __version__
-from rotator.orbits.catalogue import MOST_BYTES, parse
+from rotator.orbits.element_files import MOST_BYTES, parse
 from rotator.orbits.moments import DAY_S
 from rotator.store.whole import write_whole
 

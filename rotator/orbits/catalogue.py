@@ -1,28 +1,21 @@
-"""The known satellites, by the names that people use, read from files of elements.
+"""The known satellites, by the names that people use, from files of elements.
 
-Knows files, folders and patterns, when a file has changed, and which of several sets is the newest. No other file in
-`rotator.orbits` reads a disk. A wrong file is reported; the elements read from it before stay.
+Knows names, and which of several sets is the newest. `element_files` reads the files.
 """
 
 from __future__ import annotations
 
 import difflib
-import glob
 import re
-import stat
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from operator import itemgetter
 from pathlib import Path
 
-from rotator.orbits import omm, tle
-from rotator.orbits.elements import Elements, printable
+from rotator.orbits import tle
+from rotator.orbits.element_files import FileContent, Read, files, read_again, read_file, stamp_of
+from rotator.orbits.elements import Elements
 from rotator.orbits.moments import DAY_S
 
-SUFFIXES = (".tle", ".txt", ".json", ".csv")
-"""The files that are read from a folder. A file named in full may have any name."""
-MOST_BYTES = 64_000_000
-"""The whole public catalogue as JSON has 20 MB."""
 NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
 MOST_FAULTS = 3
 """Faults of files in one sentence."""
@@ -30,32 +23,10 @@ STILL_READ = "the files of elements are still being read: try again in a moment"
 _PARENTHESES = re.compile(r"\(([^)]*)\)")
 _AHEAD_S = 10 * DAY_S
 """Days that an epoch may be ahead of its file: elements are written for today, or for some days ahead."""
-_Stamp = tuple[int, int]
 
 
 class Unknown(ValueError):  # noqa: N818 - a sentence about a name
     """No satellite, or more than one, has that name. The text has the similar names."""
-
-
-Found = list[Elements | str]
-"""The sets of a file; a sentence in place of each wrong set."""
-Read = Callable[[Path], Found]
-"""Raises OSError, ValueError; RuntimeError where it reads in another process, and that fails."""
-
-
-def read_file(path: Path) -> Found:
-    """Raises OSError, ValueError."""
-    return list(parse(path.read_text(encoding="utf-8-sig")))
-
-
-@dataclass(frozen=True, slots=True)
-class _Kept:
-    """The content of a file, the file's time and size at the last read, and its time when `sets` were read."""
-
-    stamp: _Stamp
-    written_s: float
-    sets: tuple[Elements, ...]
-    faults: tuple[str, ...]
 
 
 class Catalogue:
@@ -72,7 +43,7 @@ class Catalogue:
         self._to_come = tuple(to_come)
         self._read_file = read
         self._has_looked = False
-        self._kept: dict[Path, _Kept] = {}
+        self._kept: dict[Path, FileContent] = {}
         self._missing: tuple[str, ...] = ()
         self._sets: dict[int, Elements] = {}
         self._names: dict[str, set[int]] = {}
@@ -105,7 +76,7 @@ class Catalogue:
         before = dict(self._kept), self._missing
         self._has_looked = True
         self._missing = tuple(missing)
-        self._kept = {path: self._read(path) for path in paths}
+        self._kept = {path: read_again(path, self._kept.get(path), self._read_file) for path in paths}
         if (self._kept, self._missing) == before:
             return False
         self._sets = {}
@@ -121,7 +92,7 @@ class Catalogue:
     def has_news(self) -> bool:
         """Whether a file is new, or has changed since it was read. Reads none."""
         paths, _ = files(self._places, self._to_come)
-        return any(_stamp(path) != (kept.stamp if (kept := self._kept.get(path)) else None) for path in paths)
+        return any(stamp_of(path) != (kept.stamp if (kept := self._kept.get(path)) else None) for path in paths)
 
     def find(self, name: str, others: Sequence[str] = ()) -> Elements:
         """By name, by the name in brackets, or by catalogue number; capitals, hyphens and blanks do not count.
@@ -144,44 +115,6 @@ class Catalogue:
             raise Unknown(f'there is no target "{name}"{meant or "."} {self.none_known}')
         raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known{meant}')
 
-    def _read(self, path: Path) -> _Kept:
-        before = self._kept.get(path)
-        earlier, written_s = (before.sets, before.written_s) if before else ((), 0.0)
-        try:
-            about = path.stat()
-            stamp = about.st_mtime_ns, about.st_size
-            if before is not None and before.stamp == stamp:
-                return before
-            if not stat.S_ISREG(about.st_mode):
-                raise ValueError("it is no file")  # a pipe would keep its reader waiting
-            if about.st_size > MOST_BYTES:
-                raise ValueError(f"{about.st_size} bytes are too many")
-            found = self._read_file(path)
-        except OSError as fault:
-            return _Kept((0, 0), written_s, earlier, (f"{path}: cannot be read ({fault.strerror})",))
-        except (ValueError, RuntimeError) as fault:
-            if not isinstance(fault, (ValueError, RecursionError)):
-                stamp = 0, 0  # not the file's fault: try again next time
-            text = "no text" if isinstance(fault, UnicodeDecodeError) else str(fault)
-            return _Kept(stamp, written_s, earlier, (f"{path}: {printable(text)}" + _stays(earlier),))
-        sets = tuple(each for each in found if isinstance(each, Elements))
-        wrong = tuple(f"{path}: {printable(each)}" for each in found if isinstance(each, str))
-        if not found:
-            wrong = (f"{path}: holds no elements" + _stays(earlier),)
-        if wrong:  # perhaps half written: keep the sets that it no longer has
-            has = {each.catalogue_number for each in sets}
-            sets += tuple(each for each in earlier if each.catalogue_number not in has)
-        return _Kept(stamp, about.st_mtime, sets, wrong)
-
-
-def _stamp(path: Path) -> _Stamp | None:
-    """Time and size of a file. None: not accessible."""
-    try:
-        about = path.stat()
-    except OSError:
-        return None
-    return about.st_mtime_ns, about.st_size
-
 
 def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
     """The set with the highest counts: the newest of those that are not far ahead of their file.
@@ -190,53 +123,6 @@ def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
     """
     ahead = elements.epoch_utc_s > written_s + _AHEAD_S
     return not ahead, -elements.epoch_utc_s if ahead else elements.epoch_utc_s
-
-
-def parse(text: str) -> Iterable[Elements | str]:
-    """Elements in any form; a sentence in place of each wrong set. Raises ValueError."""
-    begin = text.lstrip()[:1]
-    if begin in ("[", "{"):
-        return omm.read_json(text)
-    if tle.looks_like_tle(text):
-        return tle.read(text)
-    if not begin:
-        return ()
-    if "," in text.lstrip().splitlines()[0]:
-        return omm.read_csv(text.lstrip())
-    raise ValueError("neither TLE nor OMM (JSON or CSV)")
-
-
-def files(places: Sequence[str], to_come: Sequence[Path] = ()) -> tuple[list[Path], list[str]]:
-    """The existing files, and a sentence for each place without one."""
-    found: dict[Path, None] = {}
-    missing = []
-    for place in places:
-        path = Path(place).expanduser()
-        try:
-            is_folder = path.is_dir()
-            if is_folder:
-                here = _inside(path)
-            elif path.exists():
-                here = [path]
-            else:
-                here = sorted(Path(each) for each in glob.glob(str(path)))
-        except OSError as fault:
-            missing.append(f"{place}: cannot be read ({fault.strerror})")
-            continue
-        found |= dict.fromkeys(here)
-        if not here:
-            # Whole: a name alone does not say in which folder it was looked for.
-            missing.append(f"{path.absolute()}: no {'file of elements in it' if is_folder else 'such file'}")
-    for path in to_come:
-        try:
-            found |= dict.fromkeys(_inside(path) if path.is_dir() else [path] if path.exists() else [])
-        except OSError as fault:
-            missing.append(f"{path}: cannot be read ({fault.strerror})")
-    return list(found), missing
-
-
-def _inside(folder: Path) -> list[Path]:
-    return sorted(each for each in folder.iterdir() if each.suffix.lower() in SUFFIXES and each.is_file())
 
 
 def _spoken(elements: Elements) -> set[str]:
@@ -253,7 +139,3 @@ def plain(name: str) -> str:
 
 def _perhaps(names: Sequence[str]) -> str:
     return f"; perhaps {' or '.join(names)}?" if names else ""
-
-
-def _stays(earlier: tuple[Elements, ...]) -> str:
-    return f"; the {len(earlier)} sets read from it before stay" if earlier else ""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rotator.orbits.catalogue import Found, read_file
+from rotator.orbits.element_files import Found, read_file
 from rotator.runtime.own_process import OwnProcess
 
 LARGE_BYTES = 200_000

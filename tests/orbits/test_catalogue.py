@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.orbits import tle
-from rotator.orbits.catalogue import Catalogue, Found, Unknown, read_file
+from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orbits.element_files import Found, read_file
 from tests.orbits.skyfield_oracle import TLE
 from tests.orbits.test_omm import MESSAGE, as_csv
 from tests.orbits.test_tle import ISS, sums_up

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from rotator.orbits.catalogue import parse
 from rotator.orbits.earth import Site
+from rotator.orbits.element_files import parse
 from rotator.orbits.elements import Elements
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.twins import one_of_each
