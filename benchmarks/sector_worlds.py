@@ -1,7 +1,7 @@
 """A random station beside forbidden sectors, with the real drivers on simulated chips, for `benchmarks.sectors`.
 
 One to three sectors and often a horizon mask; motors at 0.3 to 1.5 of the configured speed; coast, play and noise.
-Judged by the simulated shaft and boom alone. Does not know what the box is ordered to do.
+The judge looks at the simulated shaft and boom alone. Does not know the orders that a run consists of.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ from rotator.runtime.loop import ControlLoop
 LINK = Source("gs232b", 1)
 SLOWEST, FASTEST = 0.3, 1.5
 SLOWEST_COUNTED = 0.7
-"""A motor that is slower still reaches nothing: its contact changes so late that a pulse may have been missed."""
+"""A slower motor reaches no place: its contact changes so late that the box takes a pulse for missed."""
 CLEAR_DEG = 14.0
 """A target or a start this far from every sector is free for certain, on every kind of rotor."""
 NEAR_DEG = 6.0
-"""So near to its target, on the sky, the antenna has reached it."""
+"""Nearer than this to its target, on the sky, the antenna counts as there."""
 PATIENCE_S = 60.0
 MASKS_SHARE, MASK_DEG = 0.5, 15.0
-"""So many of the worlds have a horizon of trees and roofs, as high as this."""
+"""The share of worlds that have a horizon of trees and roofs, and its greatest height."""
 SERVO_START = (90.0, 90.0)
 START_S = 1000.0
 
@@ -51,20 +51,20 @@ Place = tuple[float, float]
 
 @dataclass
 class Outcome:
-    """What came of one world."""
+    """The result of one world."""
 
     seed: int
     inside: str = ""
     """The first time that shaft or boom was inside a sector, coming from outside; empty: never."""
     missed: list[str] = field(default_factory=list)
-    """Free places that were ordered, can be reached, and were not."""
+    """Free places that were ordered and can be reached, but were not reached."""
     moves: Counter[str] = field(default_factory=Counter)
-    """What it was ordered to do, and how often."""
+    """The kinds of orders that it had, and how often."""
     reached: int = 0
     with_s: float = 0.0
-    """What the ways to those that were reached took,"""
+    """The time of the ways to all places that were reached."""
     without_s: float = 0.0
-    """and what they would take at the same speeds without sectors."""
+    """The time of the same ways, at the same speeds, without sectors."""
 
 
 class World:
@@ -80,7 +80,7 @@ class World:
             axis: getattr(self.config.sim, axis.value).speed_dps / self.config.axis(axis).speed_dps for axis in Axis
         }
         self.clock = SimClock(START_S)
-        # A servo reports nothing: only from where its first pulse sends it does the box know where it stands.
+        # A servo reports nothing: the box knows its place only after the first pulse.
         start = SERVO_START if self.config.rotor.type == "servo" else self.place()
         self.station = Station(self.config, self.clock, self.clock.sleep, start, add_alarm=self.clock.add_alarm)
         assert self.station.world is not None
@@ -107,7 +107,7 @@ class World:
                 [float(azimuth_deg), round(self.masks.uniform(0.0, MASK_DEG), 1)] for azimuth_deg in range(0, 360, 45)
             ]
         if plain.rotor.type != "moteus":
-            # What a moteus does is its own: it obeys speeds.
+            # A moteus has a controller of its own, which obeys speeds.
             slowest = SLOWEST_COUNTED if plain.rotor.type == "relay-pulse" else SLOWEST
             for axis in Axis:
                 sim = values.setdefault("sim", {}).setdefault(axis.value, {})
@@ -186,7 +186,7 @@ class World:
     def reach(self, place: Place) -> None:
         """Order a free place, and wait until the antenna stands there."""
         began_s, began = self.clock(), self.world.shafts()
-        # A link that lost the antenna to the panel counts again on a new connection.
+        # The panel may have taken the antenna from this link: a new connection may move it again.
         self._connections += 1
         self.order(Aim(*place, place=True), Source("gs232b", self._connections))
         slowest = min(self.paces.values())

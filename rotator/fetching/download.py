@@ -1,7 +1,7 @@
-"""One question to a server of elements: asked, read within bounds of size and time, checked, and written as a file.
+"""One request to a server of elements: its answer is read within limits of size and time, checked, and kept as a file.
 
 Knows HTTP and the forms of elements. Runs in a process of its own, for parsing a large answer takes seconds. Does not
-know when a question is due. `urllib` does it: one request every few hours needs no library more.
+know when a request is due. It uses `urllib`: a request every few hours needs no further library.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ _REDIRECTS = (
     HTTPStatus.PERMANENT_REDIRECT,
 )
 LEAST_SHARE = 0.5
-"""An answer with a smaller share of the elements of before is not taken the first time."""
+"""An answer with a smaller share of the satellites of the last good one is refused the first time."""
 AHEAD_S = 10 * DAY_S
-"""Published elements are for a moment no further ahead than this."""
+"""The epoch of published elements is at most this far ahead, in seconds."""
 MOST_WRONG = 1000
-"""With this many more wrong sets than right ones the rest is not looked at."""
+"""When wrong sets outnumber right ones by so many, the rest is not checked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """`status`: that of HTTP; 0: there was no answer. `trouble`: why it was not taken; empty: it was."""
+    """`status`: that of HTTP; 0: there was no answer. `trouble`: why the answer is refused; empty: it is taken."""
 
     status: int
     trouble: str = ""
@@ -87,7 +87,7 @@ def ask(question: Question) -> Answer:
         if answer.code == HTTPStatus.NOT_MODIFIED and question.sets:
             return Answer(answer.code, sets=question.sets, etag=question.etag, modified=question.modified)
         if HTTPStatus.MULTIPLE_CHOICES <= answer.code < HTTPStatus.BAD_REQUEST:
-            return Answer(answer.code, "the server leads elsewhere too often, or to a place that is no http")
+            return Answer(answer.code, "the server redirects too often, or to an address that is not http")
         return Answer(answer.code, f"the server answers {answer.code} {answer.reason}".rstrip())
     except URLError as fault:
         return Answer(0, no_answer(fault.reason))
@@ -96,7 +96,7 @@ def ask(question: Question) -> Answer:
 
 
 def _opened(question: Question) -> HTTPResponse:
-    """Where the server leads. Of an answer that leads elsewhere nothing is read: it may have any length."""
+    """Follows the redirections of the server. The content of a redirection is not read: it may have any length."""
     opener, address = _opener(), question.address
     for _ in range(MOST_REDIRECTS):
         try:
@@ -119,7 +119,7 @@ def _led(before: str, after: str) -> str:
     """The new address: http or https alone, and from https only https. Raises URLError."""
     old, new = urlsplit(before).scheme, urlsplit(after).scheme
     if new not in ("http", "https") or (old == "https" and new == "http"):
-        raise URLError(f"it leads from {old} to {new}")
+        raise URLError(f"it redirects from {old} to {new}")
     return quote(after, safe=string.punctuation, encoding="iso-8859-1")
 
 
@@ -170,14 +170,14 @@ def _read(response: HTTPResponse) -> bytes | str:
             return f"the answer has more than {MOST_BYTES // 1_000_000} MB: name an address with fewer satellites"
         if time.monotonic() > late_s:
             return f"the answer took longer than {WHOLE_S:g} s"
-    # A read of pieces does not tell that the connection broke in the middle.
+    # Reading in pieces raises nothing where the connection breaks in the middle.
     if response.length:
         raise HTTPException(f"{response.length} bytes are missing")
     return b"".join(pieces)
 
 
 def checked(content: bytes, utc_s: float) -> int:
-    """How many satellites it holds. Raises ValueError where it holds none, or more that are wrong than right."""
+    """The number of satellites in it. Raises ValueError where it has none, or more wrong sets than right ones."""
     good: set[int] = set()
     wrong, fault = 0, "it is empty"
     try:
@@ -189,7 +189,7 @@ def checked(content: bytes, utc_s: float) -> int:
             good.add(each.catalogue_number)
             continue
         if not wrong:
-            fault = each if isinstance(each, str) else f"{each.name} has elements of the future"
+            fault = each if isinstance(each, str) else f"{each.name} has elements for a time far ahead"
         wrong += 1
         if wrong > len(good) + MOST_WRONG:
             break

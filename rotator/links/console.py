@@ -45,6 +45,6 @@ class ConsoleSocket:
                     self.clients.drop_all()
                     self.wire.state = "closed"
         except BlockingIOError:
-            log.warning("%s: another box has it; this one has no console", self._path)
+            log.warning("%s: another box uses it; this one has no console", self._path)
         except OSError as fault:
             log.warning("%s: there can be no console: %s", self._path, reason(fault))

@@ -20,7 +20,7 @@ NOT_OURS = "could not bind"
 
 
 def cannot_listen(fault: OSError | UnicodeError, host: str, port: int, rival: str = "") -> str:
-    """The whole sentence, in one line. `rival`: what else of the same file listens at this port; empty: nothing."""
+    """The whole sentence, in one line. `rival`: another part of the same file with this port; empty: none."""
     shown = f"[{host}]" if ":" in host else host
     return f"{shown}:{port}: cannot listen there: {_why(fault, host, port, rival)}"
 
@@ -28,9 +28,15 @@ def cannot_listen(fault: OSError | UnicodeError, host: str, port: int, rival: st
 def _why(fault: OSError | UnicodeError, host: str, port: int, rival: str) -> str:
     number = fault.errno if isinstance(fault, OSError) and not isinstance(fault, socket.gaierror) else None
     if number == errno.EADDRINUSE and rival:
-        return f"{os.strerror(number)}: {rival} of the same file has this port: write another for one of the two"
+        return (
+            f"{os.strerror(number)}: {rival} of the same file has this port too: write another port for one of the two"
+        )
     if number == errno.EADDRNOTAVAIL or (number is None and NOT_OURS in str(fault)):
-        allow = f', and allow = ["{host}"] lets that one in' if _is_lan(host) else ", and in allow who may"
+        allow = (
+            f', and allow = ["{host}"] for that machine'
+            if _is_lan(host)
+            else ", and in allow the machines that may connect"
+        )
         return f"{os.strerror(errno.EADDRNOTAVAIL)}: {_ours()}; for the network write 0.0.0.0:{port}{allow}"
     if number == errno.EACCES and port <= LAST_OF_ROOT:
         return f"{os.strerror(number)}: ports up to {LAST_OF_ROOT} are root's: write one above, such as {port + 8000}"

@@ -1,4 +1,4 @@
-"""How many programs have a file open, and whether there was a moment at which none had: Linux's inotify.
+"""How many programs have a file open, and whether there was a moment with no such program: Linux's inotify.
 
 Knows the kernel's interface and how to count its events. Does not know what the file is for.
 """
@@ -57,7 +57,7 @@ class Openings:
         return was_free
 
     def none_left(self) -> None:
-        """It is known in another way that no program has the file open."""
+        """The caller knows in another way that no program has the file open."""
         self._count = 0
 
     def close(self) -> None:

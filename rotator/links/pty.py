@@ -116,7 +116,7 @@ class PtyLink:
                 more, free = terminal.read(MOST_READS)
                 data += more
             if changed and not free:
-                # Of one program or of the next one: it has no answer yet, so no answer of its own is dropped.
+                # The bytes are the last program's or the next one's. As the next conversation they get their answers.
                 over.set_result(data)
                 return
             if data:

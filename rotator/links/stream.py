@@ -153,7 +153,7 @@ class _Client(asyncio.BufferedProtocol):
 
 
 def _watch(client: socket.socket) -> None:
-    """Let the kernel notice that a TCP client is gone without a word. A Unix socket's client cannot be."""
+    """Let the kernel notice a TCP client that has lost power or network. A Unix socket's client cannot."""
     if client.family not in (socket.AF_INET, socket.AF_INET6):
         return
     silent_s, every_s, times = GONE_AFTER_S

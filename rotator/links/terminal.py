@@ -2,9 +2,8 @@
 
 Knows the kernel's interface. Does not know its symlink, nor what the bytes mean.
 
-The box holds only the master's end. The kernel then says "hung up" there exactly while no program has the slave open,
-whichever way the programs came to it. What that cannot show is a program that closed it just before the next one opened
-it: `Openings` sees that.
+The box holds only the master's end. There the kernel says "hung up" as long as no program has the slave open. That does
+not show a program that closed it just before the next one opened it: `Openings` sees that.
 """
 
 from __future__ import annotations
@@ -89,7 +88,7 @@ class Terminal:
                     tty.setraw(slave)
         finally:
             os.close(slave)
-        # This opening and closing is no program's.
+        # The box itself has opened and closed it here, no program.
         self.changed_hands()
         return True
 

@@ -32,7 +32,8 @@ def reason(fault: OSError | UnicodeError) -> str:
         case socket.gaierror():
             return fault.strerror or str(fault)
         case OSError(errno=errno.EADDRINUSE):
-            return f"{os.strerror(errno.EADDRINUSE)}: end what has it (another box?), or write another into the file"
+            what_to_do = "end the program that uses it (another box?), or write another address into the file"
+            return f"{os.strerror(errno.EADDRINUSE)}: {what_to_do}"
         case OSError(errno=int() as number):
             # asyncio's own text is much longer than the system's.
             return os.strerror(number)
@@ -53,7 +54,7 @@ class Wire:
     last_in: bytes = b""
     last_out: bytes = b""
     count_in: int = 0
-    """Bytes received since the start: the same line once more is news too."""
+    """The number of bytes received since the start. It grows also where the same line comes again."""
 
     def came(self, data: bytes) -> None:
         self.count_in += len(data)

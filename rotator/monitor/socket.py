@@ -45,7 +45,7 @@ class MonitorSocket:
                     for watcher in list(self._watchers):
                         watcher.drop()
         except BlockingIOError:
-            log.warning("%s: another box has it; this one cannot be monitored", self._path)
+            log.warning("%s: another box uses it; this one cannot be monitored", self._path)
         except OSError as fault:
             log.warning("%s: cannot be monitored there: %s", self._path, reason(fault))
 

@@ -81,7 +81,7 @@ HEADS = (
     "# `at`: azimuth and elevation, degrees on the rotor's own scale",
     "# h:m:s here  link#connection  > received, < sent  bytes",
 )
-"""What the columns are, for a person who reads along."""
+"""The meaning of the columns, for a person who watches."""
 
 Entry = Piece | LinkNote | At | Peer | Remark
 

@@ -35,7 +35,7 @@ def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
     if end_s <= now.loop_s:
         raise CannotFly(f"{table.name} is over")
     if begin_s > now.loop_s + AHEAD_S:
-        raise CannotFly(f"{table.name} begins in {(begin_s - now.loop_s) / 86_400:.0f} days, which is not waited for")
+        raise CannotFly(f"{table.name} begins in {(begin_s - now.loop_s) / 86_400:.0f} days: that is too far ahead")
     if names_turns(table.rows):
         return _as_told(table, later_s, antenna, now)
     points = smooth(table.rows)

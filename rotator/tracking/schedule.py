@@ -1,4 +1,4 @@
-"""The plan of many passes: which of them the antenna flies, and who gets which part when two are up at once.
+"""The plan of many passes: which of them the antenna flies, and which part of each where two are up at once.
 
 Knows the worth of each part of a pass on each of its courses, and makes flights of the best chain of parts. Knows no
 clock: time is an argument, in seconds since 1970 (UTC).

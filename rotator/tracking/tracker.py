@@ -86,8 +86,8 @@ class Tracker:
     def state(self) -> str:
         """`off`, `planning`, `tracking`, or `ended: ` and the reason.
 
-        `refused: ` and the reason: the latest request cannot be tracked, and the tracking before it goes on. Who reads
-        `tracking` finds this flight in the status, not the one before it.
+        `refused: ` and the reason: the latest request cannot be tracked, and the tracking before it goes on. While
+        it is `tracking`, the status shows this flight, not the one before it.
         """
         status = self._box.status()
         with self._lock:

@@ -135,7 +135,7 @@ def test_a_port_in_use(rotator: Rotator, config: Path) -> None:
     assert done.returncode == 1
     assert done.stderr == (
         f"rotator: 127.0.0.1:{port}: cannot listen there: Address already in use: "
-        "end what has it (another box?), or write another into the file\n"
+        "end the program that uses it (another box?), or write another address into the file\n"
     )
 
 
@@ -147,7 +147,9 @@ def test_a_link_on_the_page_s_port(start: Start, config: Path) -> None:
     box.until("elevation 0°\n")
     assert box.stop() == 0
     assert f"there is no page: {place}: cannot listen there: " in box.errors
-    assert "the first [[link]] of the same file has this port: write another for one of the two\n" in box.errors
+    assert (
+        "the first [[link]] of the same file has this port too: write another port for one of the two\n" in box.errors
+    )
 
 
 def test_a_second_box_on_the_same_terminal(start: Start, rotator: Rotator, config: Path) -> None:

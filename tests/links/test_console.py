@@ -202,7 +202,7 @@ def test_another_box_has_the_place(path: Path, caplog: pytest.LogCaptureFixture)
                 assert await other.ask(b"status") == b"status\n"
 
     asyncio.run(talk())
-    assert caplog.messages == [f"{path}: another box has it; this one has no console"]
+    assert caplog.messages == [f"{path}: another box uses it; this one has no console"]
 
 
 @pytest.mark.parametrize(

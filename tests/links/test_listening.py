@@ -23,15 +23,17 @@ def test_the_pc_s_address_in_place_of_the_box_s_own(kind: Any, new_ear: Any) -> 
         asyncio.run(kind(Wire("a", "test", "here"), "192.0.2.1", 4533, new_ear).open())
     said = str(refused.value)
     assert "this machine has " in said
-    assert 'for the network write 0.0.0.0:4533, and allow = ["192.0.2.1"] lets that one in' in said
+    assert 'for the network write 0.0.0.0:4533, and allow = ["192.0.2.1"] for that machine' in said
 
 
 @pytest.mark.parametrize(
     ("fault", "ends"),
     [
         (OSError(errno.EACCES, "x"), "Permission denied: ports up to 1023 are root's: write one above, such as 8080"),
-        (OSError("could not bind on any address out of []"), "for the network write 0.0.0.0:80, and in allow who may"),
-        (OSError(errno.EADDRINUSE, "x"), "end what has it (another box?), or write another into the file"),
+        (OSError("could not bind on any address out of []"), "for the network write 0.0.0.0:80, and in allow the "
+         "machines that may connect"),
+        (OSError(errno.EADDRINUSE, "x"), "end the program that uses it (another box?), or write another address into "
+         "the file"),
         (socket.gaierror(-3, "Temporary failure"), "127.0.0.1:80 for programs on this machine, 0.0.0.0:80 for the "
          "network too"),
     ],
@@ -44,7 +46,9 @@ def test_what_to_write(fault: OSError, ends: str) -> None:
 
 def test_a_port_that_another_part_of_the_same_file_has() -> None:
     said = cannot_listen(OSError(errno.EADDRINUSE, "x"), "127.0.0.1", 8232, "the first [[link]]")
-    assert said.endswith(": the first [[link]] of the same file has this port: write another for one of the two")
+    assert said.endswith(
+        ": the first [[link]] of the same file has this port too: write another port for one of the two"
+    )
     other = cannot_listen(OSError(errno.EACCES, "x"), "127.0.0.1", 80, "the first [[link]]")
     assert "[[link]]" not in other
 

@@ -169,7 +169,7 @@ def test_another_box_has_the_place(box: Box, caplog: pytest.LogCaptureFixture) -
             assert box.path.is_socket(), "the first one keeps it"
 
     asyncio.run(talk())
-    assert caplog.messages == [f"{box.path}: another box has it; this one cannot be monitored"]
+    assert caplog.messages == [f"{box.path}: another box uses it; this one cannot be monitored"]
 
 
 def test_what_a_dead_box_left_is_replaced(box: Box) -> None:
