@@ -40,6 +40,12 @@ def test_there_and_back() -> None:
     assert decode(encode(BOTH, CAMS), CAMS) == BOTH
 
 
+@pytest.mark.parametrize("angle_deg", [-1000.0, -0.5, 0.0, 1000.0])
+def test_any_angle_of_a_rotor_is_kept(angle_deg: float) -> None:
+    places = BOTH | {EL: Place(Standing.KNOWN, angle_deg)}
+    assert decode(encode(places, CAMS), CAMS) == places
+
+
 def test_moving_is_lost_when_read_again() -> None:
     assert decode(encode(BOTH | {AZ: Place(Standing.MOVING)}, CAMS), CAMS) == BOTH | {AZ: LOST}
 
@@ -69,6 +75,8 @@ def test_another_cam_makes_the_count_worthless() -> None:
         encode(BOTH, CAMS).replace("45.0", "NaN"),
         encode(BOTH, CAMS).replace("45.0", '"45"'),
         encode(BOTH, CAMS).replace("45.0", "true"),
+        encode(BOTH, CAMS).replace("45.0", "1000.5"),
+        encode(BOTH, CAMS).replace("45.0", "-1000.5"),
         "[" * 100_000,
     ],
     ids=lambda text: text[:30].replace("\n", " ") or "empty",
@@ -172,6 +180,27 @@ def test_tracking_costs_two_writes_a_minute_and_nothing_more_than_six(
         if (now := path.read_text()) != before:  # every write says something new
             written, before = written + 1, now
     assert 10 * a_minute - 2 <= written <= 10 * a_minute + 2
+
+
+@pytest.mark.parametrize(
+    ("begins_s", "writes_s"),
+    [(110.0, 130.0), (150.0, 162.0), (160.0, 162.0), (170.0, 172.0)],
+    ids=["20 s", "the minute is over", "2 s", "long after"],
+)
+def test_a_rest_waits_for_2_s_if_the_last_write_is_a_minute_old_and_for_20_s_otherwise(
+    path: Path, begins_s: float, writes_s: float
+) -> None:
+    file = kept(path)
+    file.start(AZ)
+    for now_s in (100.0, 102.0):
+        file.rest(now_s, AZ, 130.0)
+    assert on_disk(path)[AZ] == Place(Standing.KNOWN, 130.0)
+    file.start(AZ)
+    for now_s in (begins_s, writes_s - 0.05):
+        file.rest(now_s, AZ, 140.0)
+        assert on_disk(path)[AZ] == LOST
+    file.rest(writes_s, AZ, 140.0)
+    assert on_disk(path)[AZ] == Place(Standing.KNOWN, 140.0)
 
 
 def test_standing_for_days_writes_nothing(path: Path) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.store.flown import LONGEST_BYTES, MOST, FlownPass, FlownPasses, picture_name
+from rotator.store.flown import MOST, FlownPass, FlownPasses, picture_name
 
 EVENING_S = 1_740_787_200.0
 
@@ -55,8 +55,10 @@ def test_no_other_file_is_a_picture(tmp_path: Path, file: str) -> None:
 
 def test_a_picture_that_is_too_large_is_not_kept(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     passes = FlownPasses(tmp_path)
-    passes.keep(flown(0), "x" * (LONGEST_BYTES + 1))
+    passes.keep(flown(0), "x" * 300_001)
     assert not passes.passes
+    passes.keep(flown(1), "x" * 300_000)
+    assert [each.file for each in passes.passes] == [flown(1).file]
     assert "is not kept" in caplog.text
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from rotator.store.forms import Form
-from rotator.store.json_file import LONGEST_BYTES, JsonFile, decode, encode
+from rotator.store.json_file import JsonFile, decode, encode
 from rotator.store.json_file import number as within
 
 FORM = Form("rotator test")
@@ -108,11 +108,11 @@ def test_what_cannot_be_read_is_as_good_as_damaged(file: JsonFile, caplog: pytes
     assert f"{file.path}: ignored: " in caplog.text
 
 
-@pytest.mark.parametrize(("longer", "read"), [(0, 7), (1, DAMAGED)])
-def test_a_file_a_hundred_times_too_long_is_not_ours(file: JsonFile, longer: int, read: int) -> None:
+@pytest.mark.parametrize(("size", "read"), [(100_000, 7), (100_001, DAMAGED)])
+def test_a_file_a_hundred_times_too_long_is_not_ours(file: JsonFile, size: int, read: int) -> None:
     file.save({"number": 7, "words": ""})
     text = file.path.read_text()
-    file.path.write_text(text + " " * (LONGEST_BYTES - len(text) + longer))
+    file.path.write_text(text + " " * (size - len(text)))
     assert loaded(file) == read
 
 

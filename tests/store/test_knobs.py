@@ -26,6 +26,17 @@ def test_there_and_back(path: Path) -> None:
     assert KnobsFile(path).load() == FULL_SCALES
 
 
+def test_any_share_of_a_working_knob_is_kept_in_ten_thousandths(path: Path) -> None:
+    assert KnobsFile(path).save({AZ: 0.1, EL: 1.1})
+    assert KnobsFile(path).load() == {AZ: 0.1, EL: 1.1}
+    file = KnobsFile(path)
+    assert file.save({AZ: 0.12345678})
+    assert KnobsFile(path).load() == {AZ: 0.1235}
+    path.unlink()
+    assert file.save({AZ: 0.12349})
+    assert not path.exists(), "it is the same in the file"
+
+
 def test_no_file_nothing_known(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     assert KnobsFile(path).load() == {}
     assert not caplog.records
@@ -48,6 +59,8 @@ def shares(value: object) -> str:
         shares("0.9"),
         shares(True),
         shares(0.0),
+        shares(0.09),
+        shares(1.11),
         shares(-1),
         shares(7),
         '{"format": "rotator knobs 1", "full_scales": {"azimuth": NaN}}',

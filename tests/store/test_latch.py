@@ -32,6 +32,11 @@ def test_the_next_run_knows_who_stopped_it_and_how(path: Path, latch: Latch) -> 
     assert LatchFile(path).load() == Latch(f"{latch.by} before the restart", storm=latch.storm)
 
 
+def test_a_long_name_is_kept_whole(path: Path) -> None:
+    LatchFile(path).save(Latch("x" * 200))
+    assert LatchFile(path).load() == Latch("x" * 200 + " before the restart")
+
+
 def test_a_release_is_kept_too(path: Path) -> None:
     LatchFile(path).save(STOP)
     file = LatchFile(path)
@@ -82,6 +87,7 @@ def test_a_stop_that_could_not_be_written_is_written_later(tmp_path: Path, caplo
         '{"format": "rotator latch 1", "by": 0, "storm": false}',
         '{"format": "rotator latch 1", "by": null, "storm": false}',
         '{"format": "rotator latch 1", "by": "", "storm": true}',
+        '{"format": "rotator latch 1", "by": "' + "x" * 201 + '", "storm": false}',
         '{"format": "rotator latch 1", "by": "page#2", "storm": "no"}',
         '{"format": "rotator latch 1", "by": "a\\u001b[2Jb", "storm": false}',
     ],

@@ -37,6 +37,16 @@ def test_what_is_far_too_large_is_not_read_to_its_end(tmp_path: Path) -> None:
         read_plain(tmp_path / "video.toml")
 
 
+def test_the_most_that_is_read(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_bytes(bytes(4_000_000))
+    assert len(read_plain(tmp_path / "a.toml")) == 4_000_000
+    (tmp_path / "a.toml").write_bytes(bytes(4_000_001))
+    with pytest.raises(NoPlainFileError, match="more than 4 MB"):
+        read_plain(tmp_path / "a.toml")
+    with pytest.raises(NoPlainFileError, match="more than 0 MB"):
+        read_plain(tmp_path / "a.toml", 10)
+
+
 def test_a_folder_and_a_missing_file_are_told_apart(tmp_path: Path) -> None:
     with pytest.raises(IsADirectoryError):
         read_plain(tmp_path)

@@ -147,6 +147,12 @@ def test_an_angle_on_either_side_of_zero_is_kept(path: Path, deg: float) -> None
     assert TriesFile(path).load() == stood
 
 
+def test_ten_tries_are_the_most(path: Path) -> None:
+    most = NOTHING | {AZ: Tries(10, FaultKind.STANDS_STILL)}
+    TriesFile(path).save(most)
+    assert TriesFile(path).load() == most
+
+
 def test_without_a_place_in_memory_a_refusing_card_is_said(path: Path) -> None:
     refuse(path)
     file = TriesFile(path)
@@ -157,7 +163,8 @@ def test_without_a_place_in_memory_a_refusing_card_is_said(path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        ('"faults": 2', '"faults": 99'),
+        ('"faults": 2', '"faults": 11'),
+        ('"faults": 2', '"faults": -1'),
         ('"faults": 2', '"faults": NaN'),
         ("445.9", "1e400"),
         ("445.9", "-1001"),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.store.uploads import MOST_BYTES, MOST_FILES, NotKeptError, Uploads, file_name
+from rotator.store.uploads import NotKeptError, Uploads, file_name
 
 
 def fine(_path: Path) -> Sequence[str]:
@@ -56,8 +56,10 @@ def test_what_is_refused_leaves_nothing_and_the_one_before_stays(tmp_path: Path)
 def test_size_and_number_are_bounded(tmp_path: Path) -> None:
     uploads = Uploads(tmp_path / "uploaded")
     with pytest.raises(NotKeptError, match="at most 2,000,000 bytes"):
-        uploads.put("large", bytes(MOST_BYTES + 1), fine)
-    for number in range(MOST_FILES):
+        uploads.put("large", bytes(2_000_001), fine)
+    uploads.put("as large as may be", bytes(2_000_000), fine)
+    uploads.remove("as-large-as-may-be.txt")
+    for number in range(16):
         uploads.put(f"file {number}", b"x", fine)
     with pytest.raises(NotKeptError, match="remove one first"):
         uploads.put("one more", b"x", fine)
