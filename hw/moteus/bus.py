@@ -54,7 +54,7 @@ class MoteusBus:
         self._closing = threading.Event()
         self._met = threading.Event()
         """Set when both controllers have answered, or when the first try has failed."""
-        self._lively = False
+        self._lively: bool
         """Whether a controller has answered on the present connection."""
         self._said_s, self._unsaid = -math.inf, 0
         self._lock = threading.Lock()

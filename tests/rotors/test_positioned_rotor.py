@@ -79,6 +79,8 @@ def test_it_has_no_supply_to_switch_and_no_contact(rotor: PositionedRotor, drive
     assert not rotor.cut()
     rotor.restore()
     assert rotor.closed_contacts() == frozenset()
+    assert not rotor.coasts()
+    assert [rotor.driven(axis) for axis in Axis] == [Direction.OFF] * 2
     assert drive.said == []
 
 

@@ -197,11 +197,13 @@ def test_unplugged_until_its_watchdog_stops_it_takes_the_next_order(bench: Bench
 
 
 def test_unplugged_for_longer_it_waits_for_a_person(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.DEBUG, "hw.moteus.bus")
     wait_for(bench.reaches(AZ, 2.0))
     bench.world.inject("adapter-unplugged")
     wait_for(lambda: not bench.answers(AZ))
     busy_s = time.process_time()
     wait_for(lambda: not bench.drive.forgiven(AZ))
+    wait_for(lambda: "next try in 0.5 s" in caplog.text)
     assert time.process_time() - busy_s < 0.5, "it spins"
     bench.world.clear("adapter-unplugged")
     wait_for(lambda: bench.answers(AZ))
