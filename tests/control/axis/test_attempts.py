@@ -203,3 +203,21 @@ def test_a_run_is_in_vain_until_it_is_seen_to_move_the_axis_or_a_fault_counts_it
     assert in_vain()
     tried.attempts.note(STANDS, tried.now_s, cause=None)
     assert not in_vain()
+
+
+@pytest.mark.parametrize(
+    ("kind", "shown"),
+    [
+        (FaultKind.WRONG_WAY, FaultKind.WRONG_WAY),
+        (FaultKind.END_STOP, FaultKind.END_STOP),
+        (None, FaultKind.STANDS_STILL),
+    ],
+)
+def test_three_tries_of_an_earlier_run_stop_it_from_the_start_by_the_fault_of_the_last_one(
+    kind: FaultKind | None, shown: FaultKind
+) -> None:
+    fault = Attempts(Axis.AZIMUTH, LIMITS, before=Tries(3, kind)).fault
+    assert fault is not None
+    assert (fault.kind, fault.axis) == (shown, Axis.AZIMUTH)
+    assert "before the program began again" in fault.measured
+    assert Attempts(Axis.AZIMUTH, LIMITS, before=Tries(2, kind)).fault is None
