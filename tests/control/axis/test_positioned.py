@@ -299,19 +299,3 @@ def test_it_moves_until_it_is_there(motor: Motor) -> None:
     motor.step(0.1)
     status = motor.axis.status(motor.now_s)
     assert (status.moving, status.drive) == (False, Direction.OFF)
-
-
-def test_moves_that_end_too_soon_to_show_that_it_stands_are_tries_too(motor: Motor) -> None:
-    """A stop in between acknowledges no fault, so it ends no evidence either."""
-    motor.stuck = True
-    for _ in range(2):
-        motor.axis.aim(AimGoal(300.0, 4.0))
-        motor.step(0.6)
-        motor.axis.halt()
-        motor.step(1.0)
-        motor.axis.acknowledge(motor.now_s, by_person=False)
-    motor.axis.aim(AimGoal(300.0, 4.0))
-    motor.step(STRAY_S + 0.2)
-    assert motor.axis.fault is not None
-    assert not motor.axis.acknowledge(motor.now_s, by_person=False), "three tries: only a person may"
-    assert motor.axis.acknowledge(motor.now_s, by_person=True)
