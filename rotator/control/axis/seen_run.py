@@ -47,14 +47,15 @@ class SeenRun:
 
     def __init__(self, seen: ObservedMotion) -> None:
         self._seen = seen
-        self.line: Slope | None = None
+        self.line: Slope | None
         """How the present run turns the axis; None: it is not seen to turn."""
-        self.ended: EndedRun | None = None
+        self.ended: EndedRun | None
         self.turned_s = -math.inf
         """When the axis was last seen to turn in a run."""
-        self._fastest_dps = 0.0
+        self._fastest_dps: float
         """The fastest that the axis has turned in this run, for certain."""
         self._measured: dict[Direction, float] = {}
+        self.begin()
 
     @property
     def measured_dps(self) -> float | None:

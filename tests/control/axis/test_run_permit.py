@@ -35,7 +35,7 @@ def permit(settings: SwitchedSettings = SETTINGS) -> tuple[RunPermit, RelayGate]
 
 @pytest.mark.parametrize(
     ("angle_deg", "ends"),
-    [(-1.0, (MINUS,)), (0.0, (MINUS,)), (0.1, ()), (449.9, ()), (450.0, (PLUS,))],
+    [(-1.0, (MINUS,)), (0.0, (MINUS,)), (0.1, ()), (449.9, ()), (450.0, (PLUS,)), (451.0, (PLUS,))],
 )
 def test_an_axis_is_at_its_limit_there_and_beyond(angle_deg: float, ends: tuple[Direction, ...]) -> None:
     assert at_ends(angle_deg, Range(0.0, 450.0)) == ends

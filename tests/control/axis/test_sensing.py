@@ -22,7 +22,7 @@ class Bench:
 
     def __init__(self, calibration: Calibration | None = HALF_CIRCLE) -> None:
         self.sensing = Sensing(Axis.ELEVATION, Window(0.02, 0.98), calibration)
-        self.now_s = 50.0
+        self.now_s = 5000.0
 
     def read(self, raw: float | None, problem: str = "") -> Fault | None:
         self.now_s += STEP_S
@@ -153,3 +153,50 @@ def test_an_axis_that_reads_elsewhere_all_at_once_is_believed_and_it_is_said() -
     assert bench.sensing.notice == JUMPED
     bench.read_for(JUMPED_SHOWN_S, 0.8)
     assert bench.sensing.notice is None
+
+
+# --- a loose wire: out, back, and out again
+
+
+def read_angles(bench: Bench, *angles_deg: float) -> list[Fault | None]:
+    return [bench.read(0.05 + angle_deg / 200.0) for angle_deg in angles_deg]
+
+
+@pytest.mark.parametrize("out_deg", [40.0, -40.0, 5.1])
+def test_out_back_and_out_again_is_a_loose_wire(bench: Bench, out_deg: float) -> None:
+    *before, fault = read_angles(bench, 90.0, 90.0, 90.0 + out_deg, 90.0, 90.0 + out_deg)
+    assert before == [None] * 4, "out and back may be a spark"
+    assert fault is not None
+    assert fault.kind is FaultKind.POT_JUMPS
+    assert fault.measured == f"by {abs(out_deg):.0f}°, 3 times in 0.3 s"
+    assert fault.limit == "5° from one reading to the next"
+
+
+def test_the_fault_ends_when_the_readings_stay_for_a_while(bench: Bench) -> None:
+    assert read_angles(bench, 90.0, 130.0, 90.0, 130.0)[-1] is not None
+    again = bench.sensing.take(Reading(bench.now_s, 0.7), bench.now_s)
+    assert again is not None, "no new reading has come"
+    assert read_angles(bench, *[130.0] * 8)[-1] is None
+
+
+@pytest.mark.parametrize(
+    "angles_deg",
+    [
+        (90.0, 94.9, 90.0, 94.9, 90.0),
+        (90.0, 100.0, 110.0, 120.0, 130.0),
+        (130.0, 120.0, 110.0, 100.0, 90.0),
+        (90.0, 130.0, 90.0, 90.0, 90.0, 90.0, 90.0, 130.0, 90.0, 90.0),
+        (90.0, 130.0, 130.0, 130.0, 90.0, 90.0, 90.0, 130.0, 130.0, 130.0),
+    ],
+    ids=["within 5 degrees", "one way", "the other way", "two sparks", "to and fro, slowly"],
+)
+def test_what_is_no_loose_wire(bench: Bench, angles_deg: tuple[float, ...]) -> None:
+    assert read_angles(bench, *angles_deg) == [None] * len(angles_deg)
+
+
+def test_after_a_gap_a_reading_elsewhere_is_no_jump(bench: Bench) -> None:
+    found = []
+    for angle_deg in (90.0, 130.0) * 5:
+        found += read_angles(bench, angle_deg)
+        bench.now_s += 0.3
+    assert found == [None] * 10

@@ -47,6 +47,13 @@ def test_with_more_noise_more_is_believed() -> None:
     assert believed([10.0, 14.0], noise_deg=1.0)[1] != ()
 
 
+def test_what_the_noise_and_twice_the_known_speed_explain_is_believed() -> None:
+    """Three degrees or six noises, and 0.6° in the time from one reading to the next."""
+    for noise_deg, most_deg in ((0.1, 3.6), (0.5, 3.6), (1.0, 6.6)):
+        assert believed([10.0, 9.9 + most_deg], noise_deg)[1] != ()
+        assert believed([10.0, 10.1 + most_deg], noise_deg)[1] == ()
+
+
 @given(
     speed_dps=st.floats(-2.0 * FASTEST_DPS, 2.0 * FASTEST_DPS),
     seed=st.integers(0, 9999),

@@ -11,7 +11,7 @@ import pytest
 from hw.ports import Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.switched_law import ANYWHERE, LEAST_MOVE_DEG, SwitchedLaw, Timing
+from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.commands import Run
 from rotator.control.sky.plan import OFFSETS_S, Path
 
@@ -186,9 +186,9 @@ def test_where_an_error_weighs_little_it_does_not_start() -> None:
 
 def test_it_does_not_start_for_less_than_the_least_move() -> None:
     axis = Axis()
-    still = path(axis.now_s, 100.0 + LEAST_MOVE_DEG - 0.01, 0.0)
+    still = path(axis.now_s, 100.29, 0.0)
     assert axis.law.follow(axis.now_s, still, 0.01).direction is OFF
-    further = path(axis.now_s, 100.0 + LEAST_MOVE_DEG + 0.01, 0.0)
+    further = path(axis.now_s, 100.31, 0.0)
     assert axis.law.follow(axis.now_s, further, 0.01).direction is PLUS
 
 
