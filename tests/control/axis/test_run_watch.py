@@ -10,7 +10,7 @@ from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
-from rotator.exchange.faults import Fault
+from rotator.exchange.faults import Fault, FaultKind
 from rotator.exchange.status import ALL_OPEN
 from tests.control.axis.switch import Switch
 
@@ -155,3 +155,64 @@ def test_an_axis_that_looks_for_its_stop_may_press_against_it(watch: RunWatch) -
     for _ in range(10):
         assert presses.press(MINUS, 2.0) is None
         watch.homes(homing=True, failed=False)
+
+
+# --- what the contact has shown of the relays when a run is over
+
+
+class Driven:
+    """An axis at 100° that is driven, and then stands for five seconds; its contact may change both ways."""
+
+    def __init__(self, watch: RunWatch) -> None:
+        self.watch = watch
+        self._switch = Switch(watch.note_relays)
+        self._now_s, self._angle_deg, self._changes = 100.0, 100.0, 0
+        self.goes_on(4.0)
+
+    def goes_on(self, seconds: float, way: Direction = OFF, *, pulses: bool = True, fault: Fault | None = None) -> None:
+        self._switch.to(self._now_s, way)
+        for _ in range(round(seconds / 0.05)):
+            self._now_s += 0.05
+            if way is not OFF and pulses:
+                self._angle_deg += way * 0.3
+                self._changes = round(abs(self._angle_deg - 100.0) / 5.0)
+            condition = Condition(fault, changes=self._changes, ahead=frozenset((PLUS, MINUS)))
+            self.watch.see(self._now_s, self._angle_deg, condition)
+
+
+@pytest.mark.parametrize("kind", [None, FaultKind.NO_PULSES, FaultKind.LIMIT_SWITCH])
+def test_after_pulses_that_the_rotor_has_missed_the_opposite_relay_stays_forbidden(
+    watch: RunWatch, kind: FaultKind | None
+) -> None:
+    """The contact is not to be trusted any more: standing is not seen by it."""
+    axis = Driven(watch)
+    axis.goes_on(4.0, PLUS)
+    fault = None if kind is None else Fault(kind, Axis.AZIMUTH, "by the rotor's own count")
+    axis.goes_on(0.1, PLUS, fault=fault)
+    axis.goes_on(5.0, fault=fault)
+    assert watch.forbids(MINUS) is (kind is FaultKind.NO_PULSES)
+    assert not watch.forbids(PLUS)
+
+
+@pytest.mark.parametrize("failed", [False, True])
+def test_at_its_end_stop_it_is_seen_to_stand_unless_the_search_has_failed(watch: RunWatch, failed: bool) -> None:
+    axis = Driven(watch)
+    watch.homes(homing=True, failed=False)
+    axis.goes_on(3.5, MINUS, pulses=False)
+    axis.goes_on(0.05)
+    watch.homes(homing=False, failed=failed)
+    axis.goes_on(5.0)
+    assert watch.forbids(PLUS) is failed
+
+
+def test_after_the_search_silence_is_no_longer_normal(watch: RunWatch) -> None:
+    axis = Driven(watch)
+    watch.homes(homing=True, failed=False)
+    axis.goes_on(2.0, MINUS, pulses=False)
+    axis.goes_on(5.0)
+    watch.homes(homing=False, failed=False)
+    axis.goes_on(2.0, PLUS, pulses=False)
+    axis.goes_on(0.05)
+    watch.homes(homing=False, failed=False)
+    axis.goes_on(5.0)
+    assert watch.forbids(MINUS)

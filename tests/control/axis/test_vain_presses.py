@@ -67,7 +67,8 @@ def test_a_motor_that_turns_is_never_pressed_in_vain_however_slow(speed_dps: flo
 def test_from_one_press_to_the_next_without_a_pause_they_count_too() -> None:
     pot = Pot(0.0, 0.1)
     for _ in range(3):
-        pot.press(2.0)
+        assert not pot.presses.enough
+        pot.press(1.0)
         pot.rest(0.1)
     pot.rest(1.0)
     assert pot.presses.enough

@@ -196,6 +196,7 @@ def test_after_a_person_s_word_or_a_new_order_the_three_seconds_begin_anew() -> 
     rotor.look(4.0)
     assert notices(rotor) == [STILL_TURNS]
     rotor.relays(PLUS)
+    assert notices(rotor) == [BY_HAND], "it is driven: its supply is on"
     rotor.relays(OFF)
     rotor.look(2.0)
     assert notices(rotor) == [BY_HAND]
@@ -214,9 +215,12 @@ def test_a_notice_stays_for_three_seconds_after_its_cause() -> None:
 
 
 @BOTH_WAYS
-def test_an_axis_that_turns_when_the_program_starts_is_told_though_its_speed_is_not_known(way: Direction) -> None:
+@pytest.mark.parametrize("speed_dps", [6.0, 1.5])
+def test_an_axis_that_turns_when_the_program_starts_is_told_though_its_speed_is_not_known(
+    way: Direction, speed_dps: float
+) -> None:
     """No run has shown how fast it is: it may be a fifth of what the file says."""
-    rotor = WatchedMotor(100.0 if way > 0 else 350.0, look=True)
+    rotor = WatchedMotor(100.0 if way > 0 else 350.0, look=True, speed_dps=speed_dps)
     rotor.motor.welded = int(way)
     fault = rotor.look(5.0)
     assert fault is not None
