@@ -16,7 +16,8 @@ from rotator.assembly.sensors import compass_chip
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.config.model import Config
 from rotator.control.controller import Controller
-from rotator.exchange.status import Latch, Trusts
+from rotator.exchange.motor import Trusts
+from rotator.exchange.status import Latch
 from rotator.store import compass
 from rotator.store.learnt import Motors
 

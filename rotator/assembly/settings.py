@@ -24,8 +24,9 @@ from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.control.sky.pointing_model import PointingModel
 from rotator.exchange.faults import Missing
+from rotator.exchange.motor import ALL_OPEN, NO_TRIES, LearntMotor, Tries, Trusts
 from rotator.exchange.orders import Mode
-from rotator.exchange.status import ALL_OPEN, NO_TRIES, Latch, LearntMotor, Tries, Trusts
+from rotator.exchange.status import Latch
 from rotator.store.learnt import Motors
 
 

@@ -18,7 +18,8 @@ from rotator.assembly.settings import build_controller
 from rotator.config.model import Config
 from rotator.config.places import memory_folder
 from rotator.control.controller import Controller
-from rotator.exchange.status import NO_TRIES, Latch, Tries
+from rotator.exchange.motor import NO_TRIES, Tries
+from rotator.exchange.status import Latch
 from rotator.runtime.anew import Anew
 from rotator.runtime.latch_thread import TRIES_THREAD, LatchThread
 from rotator.store.learnt import LearntFile

@@ -14,9 +14,10 @@ from dataclasses import replace
 
 from hw.ports import Axis, HardwareError
 from rotator.control.controller import Controller
+from rotator.exchange.motor import Tries
 from rotator.exchange.orders import Order, Stop
 from rotator.exchange.sources import Source
-from rotator.exchange.status import Latch, Status, Tries
+from rotator.exchange.status import Latch, Status
 from rotator.rotors.port import Rotor
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.exchange.status import LearntMotor
+from rotator.exchange.motor import LearntMotor
 from rotator.store import json_file
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, damage, number

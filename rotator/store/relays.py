@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.exchange.status import Trust, Trusts
+from rotator.exchange.motor import Trust, Trusts
 from rotator.store.forms import Form
 from rotator.store.spared import SparedFile
 

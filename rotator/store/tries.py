@@ -17,7 +17,7 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.exchange.faults import FaultKind
-from rotator.exchange.status import NO_TRIES, Places, Tries
+from rotator.exchange.motor import NO_TRIES, Places, Tries
 from rotator.store.forms import Form
 from rotator.store.json_file import number
 from rotator.store.spared import SparedFile

@@ -16,10 +16,11 @@ from hw.ports import Axis, Direction
 from rotator import __version__
 from rotator.control.sky.mount import Mount
 from rotator.exchange.flight_order import Fly
+from rotator.exchange.motor import Trust
 from rotator.exchange.orders import Stop
 from rotator.exchange.sources import TRACKER
 from rotator.exchange.spoken import sender, spoken
-from rotator.exchange.status import AxisStatus, Status, Trust
+from rotator.exchange.status import AxisStatus, Status
 from rotator.links.wire import Wire
 from rotator.protocols.status_object import as_object
 from rotator.views import words

@@ -11,7 +11,7 @@ from rotator.assembly.kept_files import build_tries_file
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.exchange.faults import FaultKind
-from rotator.exchange.status import Tries
+from rotator.exchange.motor import Tries
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MET = Tries(2, FaultKind.END_STOP, (182.0, None), (182.0, None))

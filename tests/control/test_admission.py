@@ -10,6 +10,7 @@ from hw.ports import AngleSource, Axis, Direction
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount, Range
 from rotator.exchange.faults import Fault, FaultKind, Missing
+from rotator.exchange.motor import Trust
 from rotator.exchange.orders import (
     Aim,
     Calibrate,
@@ -26,7 +27,7 @@ from rotator.exchange.orders import (
     Speed,
     Stop,
 )
-from rotator.exchange.status import AxisStatus, Status, Trust
+from rotator.exchange.status import AxisStatus, Status
 
 MOUNT = Mount(Range(0, 350), Range(0, 180))
 ALWAYS: list[Order] = [

@@ -9,6 +9,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.commands import Acknowledge, Place
 from rotator.exchange.faults import FaultKind, Notice
+from rotator.exchange.motor import Trust
 from rotator.exchange.orders import (
     Aim,
     Confirm,
@@ -25,7 +26,6 @@ from rotator.exchange.orders import (
     Stop,
 )
 from rotator.exchange.sources import Source
-from rotator.exchange.status import Trust
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

@@ -16,7 +16,8 @@ from rotator.assembly.kept_files import build_learnt
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.save import save_table
-from rotator.exchange.status import Latch, LearntMotor, Trust
+from rotator.exchange.motor import LearntMotor, Trust
+from rotator.exchange.status import Latch
 from rotator.store.compass import CompassFile
 from rotator.store.counts import CountsFile, Place, Standing
 from rotator.store.knobs import KnobsFile

@@ -17,7 +17,7 @@ from hw.ports import Axis
 from rotator.config import migrations
 from rotator.config.load import ConfigError, load
 from rotator.config.save import save_table
-from rotator.exchange.status import ALL_OPEN, LearntMotor, Trust
+from rotator.exchange.motor import ALL_OPEN, LearntMotor, Trust
 from rotator.store.compass import CompassFile
 from rotator.store.counts import LOST, CountsFile
 from rotator.store.forms import Form

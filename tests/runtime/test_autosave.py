@@ -13,9 +13,9 @@ from rotator.assembly.kept_files import build_learnt
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.load import load
+from rotator.exchange.motor import LearntMotor
 from rotator.exchange.orders import Aim, Calibrate, Order
 from rotator.exchange.sources import Source
-from rotator.exchange.status import LearntMotor
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.loop import ControlLoop
 

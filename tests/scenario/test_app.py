@@ -22,9 +22,9 @@ from rotator.box.app import App
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.exchange.faults import FaultKind
+from rotator.exchange.motor import NO_TRIES, Tries
 from rotator.exchange.orders import Jog
 from rotator.exchange.sources import Source
-from rotator.exchange.status import NO_TRIES, Tries
 from rotator.links.wire import LinkError
 from rotator.runtime.anew import Anew
 from rotator.runtime.display import DISPLAY_THREAD

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from hw.ports import Direction
 from rotator.assembly.kept_files import build_learnt
 from rotator.control.axis.motion import Motor
-from rotator.exchange.status import LearntMotor
+from rotator.exchange.motor import LearntMotor
 from rotator.store import compass, counts, knobs, learnt
 from rotator.store.json_file import JsonFile
 from tests.rotors.rig import AZ, EL, KINDS, Box, Kind, configured

@@ -12,8 +12,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
+from rotator.exchange.motor import Trust, Trusts
 from rotator.exchange.orders import Aim, Jog, RelaysChecked, Stop
-from rotator.exchange.status import Trust, Trusts
 from rotator.runtime.loop import ControlLoop
 from rotator.store.relays import after
 from tests.rotors.rig import KINDS, PERSON, Box, Kind

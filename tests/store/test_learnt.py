@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.exchange.status import LearntMotor
+from rotator.exchange.motor import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

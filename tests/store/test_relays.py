@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.exchange.status import ALL_OPEN, Trust, Trusts
+from rotator.exchange.motor import ALL_OPEN, Trust, Trusts
 from rotator.store.relays import UNKNOWN, RelaysFile, after
 from rotator.store.whole import NEW
 

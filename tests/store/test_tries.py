@@ -10,7 +10,7 @@ import pytest
 
 from hw.ports import Axis
 from rotator.exchange.faults import FaultKind
-from rotator.exchange.status import NO_TRIES, Tries
+from rotator.exchange.motor import NO_TRIES, Tries
 from rotator.store.tries import TriesFile
 from rotator.store.whole import NEW
 

@@ -13,7 +13,7 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.short_runs import STANDING_FAULTS, ShortRuns
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import POT, Fault, FaultKind, Notice
-from rotator.exchange.status import NO_TRIES, Tries
+from rotator.exchange.motor import NO_TRIES, Tries
 
 
 class Attempts:

@@ -16,7 +16,7 @@ from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.sky.mount import Range
-from rotator.exchange.status import Trust
+from rotator.exchange.motor import Trust
 
 SLOWEST_SHARE = 0.3
 """A powered motor turns at this share of its speed at least."""

@@ -12,7 +12,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import FaultKind, Notice
-from rotator.exchange.status import NO_TRIES, Places, Tries
+from rotator.exchange.motor import NO_TRIES, Places, Tries
 
 KEPT_OFF_DEG = 2.0
 """The axis ends this far before a stop that it has met."""

@@ -19,7 +19,7 @@ from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.status import Trusts
+from rotator.exchange.motor import Trusts
 
 
 class MotionWatch:

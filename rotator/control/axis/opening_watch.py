@@ -25,7 +25,7 @@ from rotator.control.axis.run_on import RunOn
 from rotator.control.axis.seen_run import END_WINDOWS_S, HELD_UNSEEN_S, POWERED_SHARE, EndedRun, SeenRun
 from rotator.control.axis.standing import Obstacles, RestPlace
 from rotator.control.axis.trend import Slope
-from rotator.exchange.status import Trust
+from rotator.exchange.motor import Trust
 
 DOUBTS_AFTER_S = 0.5
 GAP_S = 0.5

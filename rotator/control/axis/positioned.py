@@ -29,7 +29,8 @@ from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.status import AxisStatus, Tries
+from rotator.exchange.motor import Tries
+from rotator.exchange.status import AxisStatus
 
 
 class PositionedAxis(AxisBase[PositionedSettings]):

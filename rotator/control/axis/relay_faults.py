@@ -10,7 +10,7 @@ from dataclasses import replace
 from hw.ports import Axis, Direction
 from rotator.control.axis.relay_trust import BOTH_WAYS
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.status import Trust, Trusts
+from rotator.exchange.motor import Trust, Trusts
 
 CUT_BY_HAND = "CUT MOTOR POWER!"
 WAYS = {

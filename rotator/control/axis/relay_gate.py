@@ -21,7 +21,7 @@ from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.status import Trust, Trusts
+from rotator.exchange.motor import Trust, Trusts
 
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""

@@ -6,7 +6,7 @@ Knows what has been reported of them. Does not know how that was found out: `ope
 from __future__ import annotations
 
 from hw.ports import Direction
-from rotator.exchange.status import Trust, Trusts
+from rotator.exchange.motor import Trust, Trusts
 
 BOTH_WAYS = (Direction.PLUS, Direction.MINUS)
 

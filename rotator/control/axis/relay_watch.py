@@ -13,7 +13,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_state import RelayState
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.status import Trusts
+from rotator.exchange.motor import Trusts
 
 
 class RelayWatch(Protocol):

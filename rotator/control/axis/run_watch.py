@@ -19,7 +19,7 @@ from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.silent_runs import SilentRuns
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.status import Trusts
+from rotator.exchange.motor import Trusts
 
 TRAVEL_SHARE, TRAVEL_MORE_S = 1.3, 5.0
 """A motor may run this much longer in one go than the travel from end to end takes."""

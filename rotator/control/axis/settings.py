@@ -14,7 +14,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Window
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Missing
-from rotator.exchange.status import ALL_OPEN, NO_TRIES, Tries, Trusts
+from rotator.exchange.motor import ALL_OPEN, NO_TRIES, Tries, Trusts
 
 NEAR_DEG = 0.5
 """How far from its place a positioned axis may come to rest, where its drive leaves no dead band."""

@@ -17,7 +17,7 @@ from rotator.control.axis.vain_presses import VainPresses
 from rotator.control.axis.weld_watch import TURNS
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.status import Tries
+from rotator.exchange.motor import Tries
 
 WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
 """Faults that say more than the notice TURNS."""

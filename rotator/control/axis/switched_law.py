@@ -21,7 +21,8 @@ from rotator.control.commands import Run
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path, next_place_deg
-from rotator.exchange.status import JOG_ENDS_DEG, LearntMotor
+from rotator.exchange.motor import LearntMotor
+from rotator.exchange.status import JOG_ENDS_DEG
 
 LEAST_SHARE = 0.55
 """Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""

@@ -16,7 +16,7 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.trend import Slope
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.status import Trust
+from rotator.exchange.motor import Trust
 
 TURNING_WINDOW = SpeedWindow(1.0, 4.0, 4.0)
 TURNING_SHARE = 0.5

@@ -8,7 +8,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.attempts import Attempts
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.status import NO_TRIES, Tries
+from rotator.exchange.motor import NO_TRIES, Tries
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

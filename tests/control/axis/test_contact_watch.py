@@ -9,7 +9,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
-from rotator.exchange.status import ALL_OPEN, Trust
+from rotator.exchange.motor import ALL_OPEN, Trust
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

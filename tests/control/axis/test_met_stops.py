@@ -10,7 +10,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.met_stops import MetStops
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import FaultKind
-from rotator.exchange.status import Tries
+from rotator.exchange.motor import Tries
 
 MINUS, PLUS = Direction.MINUS, Direction.PLUS
 LIMITS = Range(0.0, 450.0)

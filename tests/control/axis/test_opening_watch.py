@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Direction
-from rotator.exchange.status import ALL_OPEN, Trust, Trusts
+from rotator.exchange.motor import ALL_OPEN, Trust, Trusts
 from tests.control.axis.watched_motor import STEP_S, WatchedMotor
 
 MINUS, OFF, PLUS = Direction

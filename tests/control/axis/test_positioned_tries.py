@@ -8,7 +8,7 @@ from hw.ports import AngleSource
 from rotator.control.axis.stray_watch import STRAY_S
 from rotator.control.sky.goal import AimGoal
 from rotator.exchange.faults import FaultKind
-from rotator.exchange.status import NO_TRIES, Tries
+from rotator.exchange.motor import NO_TRIES, Tries
 from tests.control.axis.test_positioned import Motor
 
 

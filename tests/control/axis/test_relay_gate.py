@@ -16,7 +16,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.status import Trust, Trusts
+from rotator.exchange.motor import Trust, Trusts
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

@@ -6,7 +6,7 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.relay_trust import RelayTrusts
-from rotator.exchange.status import Trust
+from rotator.exchange.motor import Trust
 
 MINUS, _, PLUS = Direction
 OPEN, UNSEEN, DOUBTED, WELDED = Trust

@@ -17,7 +17,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.status import Trust
+from rotator.exchange.motor import Trust
 
 MINUS, OFF, PLUS = Direction
 LEASE_S = 0.25

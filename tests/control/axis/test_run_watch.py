@@ -11,7 +11,7 @@ from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.status import ALL_OPEN
+from rotator.exchange.motor import ALL_OPEN
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

@@ -8,7 +8,7 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.relay_faults import CUT_BY_HAND
-from rotator.exchange.status import Trust
+from rotator.exchange.motor import Trust
 from tests.control.axis.watched_motor import STEP_S, WatchedMotor
 
 MINUS, OFF, PLUS = Direction

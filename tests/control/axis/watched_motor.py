@@ -14,7 +14,7 @@ from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.readings import Condition
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault
-from rotator.exchange.status import ALL_OPEN, Trusts
+from rotator.exchange.motor import ALL_OPEN, Trusts
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

@@ -19,7 +19,7 @@ from rotator.control.commands import Feed, Run, Unfed
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Missing
-from rotator.exchange.status import ALL_OPEN, Trusts
+from rotator.exchange.motor import ALL_OPEN, Trusts
 from rotator.store.relays import after
 
 MINUS, OFF, PLUS = Direction
