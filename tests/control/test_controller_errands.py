@@ -17,6 +17,7 @@ from rotator.exchange.orders import (
     Jog,
     LetGo,
     Mode,
+    Nudge,
     Order,
     Park,
     RelaysChecked,
@@ -24,6 +25,7 @@ from rotator.exchange.orders import (
     Remark,
     SetMode,
     Stop,
+    Take,
 )
 from rotator.exchange.sources import Source
 
@@ -184,3 +186,27 @@ def test_a_person_who_has_looked_at_the_relays_ends_the_doubt_of_that_axis(new_d
     assert desk.status.azimuth.trusts[0] is Trust.DOUBTED
     desk.step(RelaysChecked(AZ), by=CONSOLE)
     assert desk.status.azimuth.trusts == (Trust.OPEN, Trust.OPEN)
+
+
+# --- what a person at the page or at the panel does to an order in force
+
+
+@pytest.mark.parametrize(
+    ("mover", "stops", "goes_on"), [("page#1", False, True), ("page#1", True, False), ("gs232b#1", False, False)]
+)
+def test_who_takes_the_antenna_stops_what_another_moves_and_may_keep_what_the_own_order_moves(
+    desk: Any, mover: str, stops: bool, goes_on: bool
+) -> None:
+    desk.step(Aim(300.0, 10.0), by=BROWSER if mover == str(BROWSER) else desk.LINK)
+    assert desk.status.controlled_by == mover
+    driven = desk.step(Take(stops), by=BROWSER)
+    assert (driven[AZ] is PLUS) is goes_on
+    assert desk.status.held_by == "page#1"
+    assert desk.status.controlled_by == (mover if goes_on else "")
+
+
+def test_a_nudge_shifts_the_order_in_force_at_once(desk: Any) -> None:
+    desk.step(Aim(200.0, 40.0))
+    desk.step(Nudge(AZ, 3.0), by=PANEL)
+    assert desk.status.azimuth.target_deg == pytest.approx(203.0)
+    assert desk.status.elevation.target_deg == pytest.approx(40.0)

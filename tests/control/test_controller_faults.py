@@ -110,6 +110,24 @@ def test_s_or_a_release_acknowledges_and_the_next_order_moves(desk: Any, order: 
     assert desk.step(Aim(235, 60))[AZ] is PLUS
 
 
+@pytest.mark.parametrize("resumes", [False, True], ids=["S", "resume"])
+def test_after_three_tries_in_vain_only_a_person_has_the_motor_tried_again(desk: Any, resumes: bool) -> None:
+    """Its pot goes out each time while the motor runs."""
+    for tries in range(1, 4):
+        desk.step(Aim(400, 10))
+        desk.run(2.0)
+        desk.instead[AZ] = None
+        desk.run(0.5)
+        assert ("only `resume`" in desk.status.azimuth.fault.measured) is (tries == 3)
+        del desk.instead[AZ]
+        desk.run(2.0)
+        if tries < 3:
+            desk.step(Stop())
+            assert desk.status.faults == ()
+    desk.step(Release() if resumes else Stop(), by=desk.CONSOLE if resumes else desk.LINK)
+    assert (desk.status.faults == ()) is resumes
+
+
 @pytest.mark.parametrize("order", [Stop(), Release()], ids=["S", "release"])
 def test_while_the_cause_persists_the_fault_comes_back_and_nothing_moves(desk: Any, order: Order) -> None:
     desk.step(Aim(235, 60))
