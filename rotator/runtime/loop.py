@@ -1,8 +1,7 @@
 """The control loop: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
 
-Knows the timing, and logs changes of the status. The controller makes the decisions. No other code touches the rotor,
-except the guard, which may open relays at any time. The sensors have a thread of their own: a slow or hanging bus
-delays no order, and the loop still notices that a reading is old.
+Knows the timing, and logs changes of the status. The controller decides. Beside this loop only the guard touches the
+rotor: it may open relays at any time. The sensors have a thread of their own, so a bus that hangs delays no order.
 """
 
 from __future__ import annotations
