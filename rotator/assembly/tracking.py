@@ -138,7 +138,7 @@ def _as_learnt(motor: PlannedMotor, axis: AxisStatus) -> PlannedMotor:
 
 
 class TrackedBox:
-    """The box as its tracker sees it: `rotator.tracking.tracker.Box`."""
+    """The box as its tracker sees it: `rotator.tracking.ports.Box`."""
 
     def __init__(self, config: Config, loop: ControlLoop, mount: Mount) -> None:
         self._loop = loop

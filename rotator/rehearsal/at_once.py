@@ -12,7 +12,7 @@ from rotator.tracking.program import Program, program_flight
 
 
 class PlansAtOnce:
-    """`rotator.tracking.tracker.Planner`."""
+    """`rotator.tracking.ports.Planner`."""
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         return next_flight(wanted, antenna, now)
