@@ -1,1 +1,4 @@
-"""What the rooms exchange: one order, its sender, and one status, as values that every room may know."""
+"""What the rooms exchange: an order, its sender, a fault, the status, as values that every room may know.
+
+Also the rule by which two rooms judge alike whether a program still sends the same satellite (`program_clock`).
+"""
