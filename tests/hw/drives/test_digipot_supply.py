@@ -103,6 +103,15 @@ def test_once_a_second_both_chips_get_their_step_again_whatever_the_time_of_the_
         assert bench.said() == ["azimuth 40", "elevation 30"]
 
 
+def test_the_model_goes_on_whenever_it_is_read() -> None:
+    bench = Bench()
+    bench.aim(AZ, 60.0)
+    for angle_deg in (45.0, 50.0, 55.0, 60.0, 60.0):
+        bench.clock.sleep(1.0)
+        assert bench.drive.angle_deg(AZ) == pytest.approx(angle_deg)
+        assert bench.drive.angle_deg(EL) == 30.0
+
+
 def test_without_supply_nothing_is_refreshed() -> None:
     bench = Bench()
     bench.aim(AZ, 60.0)

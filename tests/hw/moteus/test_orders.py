@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from hw.moteus.orders import WATCHDOG_S, Home, Mode, MoteusSpec
+from rotator.config.kinds.moteus import MoteusAxisTable
 
 ELEVATION = MoteusSpec(2, rev_per_turn=-2.0, zero_rev=-0.25)
 
@@ -22,6 +25,15 @@ def test_a_controller_that_hears_nothing_stops_after_half_a_second() -> None:
 def test_there_and_back(angle_deg: float, position_rev: float) -> None:
     assert ELEVATION.revolutions(angle_deg) == pytest.approx(position_rev)
     assert ELEVATION.degrees(position_rev) == pytest.approx(angle_deg)
+
+
+def test_what_is_left_out_is_as_in_a_configuration_that_leaves_it_out() -> None:
+    table, spec = MoteusAxisTable(), MoteusSpec(1)
+    assert table.max_torque_nm is None
+    assert math.isnan(spec.max_torque_nm)
+    for name in ("rev_per_turn", "zero_rev", "velocity_limit_dps", "accel_limit_dps2", "geared"):
+        assert getattr(spec, name) == getattr(table, name), name
+    assert (spec.min_deg, spec.max_deg) == (0.0, 360.0), "a full circle"
 
 
 def test_a_span_has_no_sign_and_no_zero() -> None:

@@ -10,6 +10,7 @@ import pytest
 from hw.ports import Direction
 from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
+from rotator.config.kinds.relay_pulse import PulseAxisTable
 
 PLUS, MINUS, OFF = Direction.PLUS, Direction.MINUS, Direction.OFF
 CAM = Cam(spacing_deg=5.0, closed_deg=1.0, closes_at_deg=0.0, speed_dps=6.0, coast_s=0.5)
@@ -19,6 +20,12 @@ def at(angle_deg: float, *, closed: bool, cam: Cam = CAM) -> CamCount:
     count = CamCount(cam)
     assert count.place(0.0, angle_deg, closed=closed)
     return count
+
+
+def test_a_cam_is_described_as_in_a_configuration_that_leaves_the_rest_out() -> None:
+    table, cam = PulseAxisTable(), Cam(5.0, 1.0, 0.0, 6.0)
+    assert (cam.coast_s, cam.play_deg) == (table.coast_s, table.play_deg)
+    assert cam.lag_s == pytest.approx(0.1), "a fifth: after five of them the motor stands"
 
 
 # --- placed with an error
