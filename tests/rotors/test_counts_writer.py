@@ -90,6 +90,19 @@ def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> Non
     assert standing(path) is Standing.LOST
 
 
+def test_a_mark_that_a_rest_may_have_taken_back_lets_no_motor_start(path: Path, disk: SlowDisk) -> None:
+    counts_writer = CountsWriter(known(path), disk)
+    counts_writer.may_start(AZ)
+    counts_writer.rests(50.0, AZ, 120.0)
+    counts_writer.may_start(AZ)
+    first_mark, rest, second_mark = disk.jobs
+    first_mark()
+    assert not counts_writer.may_start(AZ), "the rest is still on its way to the disk"
+    rest()
+    second_mark()
+    assert counts_writer.may_start(AZ)
+
+
 def test_a_rest_of_some_seconds_is_kept(path: Path) -> None:
     counts_writer = CountsWriter(known(path), at_once)
     counts_writer.may_start(AZ)

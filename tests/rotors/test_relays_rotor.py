@@ -9,7 +9,7 @@ from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
 from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
-from rotator.control.commands import HOLD, Run
+from rotator.control.commands import HOLD, Feed, Run, Unfed
 from rotator.rotors.relays import RelayRotor
 
 MINUS, OFF, PLUS = Direction
@@ -58,6 +58,22 @@ def test_the_supply_is_cut_until_it_is_restored() -> None:
     bench.rotor.restore()
     assert bench.run(AZ, PLUS) is PLUS
     assert bench.on() == {"azimuth_cw", "master"}
+
+
+def test_the_supply_is_on_for_a_look_and_off_when_it_shall_turn_nothing() -> None:
+    bench = Bench()
+    assert not bench.rotor.condition(EL).supplied
+    assert bench.rotor.obey(AZ, Feed(bench.clock() + 0.25)) is OFF
+    assert bench.on() == {"master"}
+    assert bench.rotor.condition(EL).supplied
+    bench.clock.sleep(0.25)
+    assert bench.on() == set()
+    bench.run(AZ, PLUS)
+    assert bench.rotor.driven(AZ) is PLUS
+    assert bench.rotor.obey(AZ, Unfed()) is OFF
+    assert bench.on() == set(), "it does not linger"
+    assert bench.rotor.driven(AZ) is OFF
+    assert not bench.rotor.condition(AZ).supplied
 
 
 def test_without_a_master_there_is_no_supply_to_cut() -> None:

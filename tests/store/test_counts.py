@@ -149,6 +149,23 @@ def test_a_homed_angle_that_the_card_refuses_is_written_as_soon_as_it_takes_it(p
     assert on_disk(path)[AZ] == Place(Standing.KNOWN, 12.0), "it does not wait for two seconds of rest"
 
 
+@pytest.mark.parametrize(("then", "left"), [("home", Place(Standing.KNOWN, 5.0)), ("lose", LOST), ("start", LOST)])
+def test_an_angle_from_before_is_not_written_after_homing_nor_after_a_loss_nor_in_a_move(
+    path: Path, then: str, left: Place
+) -> None:
+    file = kept(path)
+    file.rest(100.0, AZ, 130.0)
+    match then:
+        case "home":
+            file.home(AZ, 5.0)
+        case "lose":
+            file.lose(AZ)
+        case _:
+            file.start(AZ)
+    file.close()
+    assert on_disk(path)[AZ] == left
+
+
 def test_an_angle_is_kept_in_thousandths_and_the_same_is_not_written_again(path: Path) -> None:
     file = kept(path)
     file.home(AZ, 12.34567)
