@@ -1,7 +1,7 @@
-"""A whole pass planned before it begins: the way through it, and each axis's steps, or its path where it has no relays.
+"""Plans a whole pass before it begins: the way through it, and the steps of each axis, or its path if it has no relays.
 
-Knows the mount, the target's path and the motors. It computes for up to a second, so it has no place in the control
-loop: what it returns is an order. Knows nothing of who asks, nor of sensors.
+Knows the mount, the target's path and the motors. A plan takes up to a second, so it is not computed in the control
+loop, and comes back to it as an order. Knows no sensors, and not who has asked.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from rotator.control.sky.ways import Leg, Route, best_route
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly, Step
 
 PRICE = 2.9
-"""Degrees squared times seconds that a start is worth, for a tolerance of one degree; it grows with the cube."""
+"""The price of a start in degrees squared times seconds, at a tolerance of 1°. It grows with the tolerance's cube."""
 DOWN_WEIGHT = 1e-3
-"""Below the horizon the antenna may be anywhere; it shall be right when the target rises."""
+"""The weight of an error below the horizon: small, but enough that the antenna is right when the target rises."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlannedMotor:
-    """What the plan has to know of an axis. `speed_dps`, `coast_s`: as learnt."""
+    """What the plan needs to know of an axis. `speed_dps` and `coast_s` are the learnt values."""
 
     speed_dps: float
     coast_s: float
@@ -54,8 +54,8 @@ class Antenna:
 
 
 def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begin_on: Way | None = None) -> FlightPlan:
-    """A path that has begun already is flown from now on. `begin_on`: the way on which a plan of many passes begins it;
-    else the best one."""
+    """A path that has begun already is followed from now on. `begin_on`: the way to begin on, if a plan of many passes
+    has chosen it; None: the best way."""
     mount, azimuth, elevation = antenna.mount, antenna.azimuth, antenna.elevation
     begin_s = max(path.begin_s, now_s)
     speeds = Speeds(azimuth.speed_dps, elevation.speed_dps)
@@ -83,7 +83,7 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
 def plan_as_told(
     name: str, rows: Sequence[Row], axes: Sequence[Row], antenna: Antenna, now_s: float, *, span_s: tuple[float, float]
 ) -> Fly:
-    """A part of a path of which each axis angle is told already: the motors' steps alone are planned.
+    """A part of a path whose axis angles are given: only the motors' steps are planned.
 
     `rows`: directions; `axes`: axis angles. `span_s`: the part's beginning and end.
     """

@@ -1,7 +1,7 @@
-"""A timed table that names its turn: azimuth above 360, or elevation above 90. It is flown as it stands.
+"""A timed table with an azimuth above 360 or an elevation above 90: its writer has chosen the turns of the axes.
 
-Knows the mount that shall follow it, and how its angles become axis angles, as those of a program's orders do. Chooses
-nothing: no turn, no way over the top, no moment to unwind. Knows no motors.
+So the antenna follows it exactly as it is written: nothing is chosen here, neither a turn nor a way over the top nor a
+moment to unwind. Its angles become axis angles like those of a program's orders. Knows the mount. Knows no motors.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from rotator.control.sky.timed_table import SMOOTH_S, TimedTable
 
 
 def names_turns(rows: Sequence[Row]) -> bool:
-    """Whether the writer of this table has chosen turns: all its angles are taken as they stand then."""
+    """Whether the writer of this table has chosen the turns of the axes."""
     return any(azimuth_deg > FULL_TURN_DEG or elevation_deg > ZENITH_DEG for _, azimuth_deg, elevation_deg in rows)
 
 
 def smooth_turns(rows: Sequence[Row]) -> tuple[Row, ...]:
-    """The same rows, and points of a curve between those that are far apart, in each angle for itself.
+    """The same rows, and points of a smooth curve between rows that are far apart. Each angle has its own curve.
 
-    No point is beyond the least and the greatest angle that stand in the table: those are the rotor's limits, perhaps.
+    No point is beyond the smallest and the largest angle of the table, because these may be the rotor's limits.
     """
     found: list[Row] = []
     least_deg, most_deg = ([choose(row[axis] for row in rows) for axis in (1, 2)] for choose in (min, max))

@@ -1,6 +1,6 @@
-"""A turn from one way to another while the target moves on: when the antenna arrives, and how far it is off until then.
+"""Computes a turn of the antenna to another way while the target moves on: when it arrives, and its error until then.
 
-Knows the target's path, the mount and the motors' speeds. Does not know which turn is worth it.
+Knows the target's path, the mount and the motors' speeds. Does not know which turn is the best.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ class Turning:
         self._seen = [is_seen(mount, *direction) for direction in directions]
 
     def arrival(self, from_deg: Place, to: Flown, earliest: int, *, left: int) -> int:
-        """At which look the antenna is on that way, if it has left at `left`; the way moves on meanwhile. Not before
-        `earliest`; the last look of all where it does not get there."""
+        """The look at which the antenna is on that way, `earliest` or later, if it left at the look `left`.
+
+        The way moves on meanwhile. If the antenna does not get there before the path ends: the number of looks.
+        """
         last = len(self._directions)
         for look in range(earliest, last):
             if self.travel_s(from_deg, to.place(look)) <= (look - left) * STEP_S:
@@ -33,12 +35,12 @@ class Turning:
         return last
 
     def change(self, before: Flown, to: Flown, look: int) -> int:
-        """At which look it has changed from one way to the other: always a later one, so that changes come to an end
-        where both ways wait at the same limit."""
+        """The look at which a change of way that begins at `look` is done. It is always a later look: two ways may wait
+        at the same limit, and a change that takes no time could follow itself without end."""
         return self.arrival(before.place(look), to, look + 1, left=look)
 
     def errors_deg(self, from_deg: Place, to: Flown, look: int, arrival: int) -> list[float]:
-        """How far it is off, look by look from where it leaves until it arrives; none where nothing is seen."""
+        """The error from each look to the next until the antenna arrives. Looks at an unseen target are left out."""
         there, errors_deg = to.place(min(arrival, len(self._directions) - 1)), []
         for number in range(look, arrival):
             if self._seen[number]:
@@ -48,7 +50,7 @@ class Turning:
         return errors_deg
 
     def travel_s(self, from_deg: Place, to_deg: Place) -> float:
-        """Both motors turn at once."""
+        """The time for this turn. Both motors turn at once."""
         return max(
             abs(to_deg[0] - from_deg[0]) / self._speeds.azimuth_dps,
             abs(to_deg[1] - from_deg[1]) / self._speeds.elevation_dps,

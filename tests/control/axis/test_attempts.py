@@ -87,6 +87,13 @@ def test_a_fault_at_rest_before_any_run_meets_no_stop() -> None:
     assert tried.attempts.limits == LIMITS
 
 
+@pytest.mark.parametrize(("fault", "tries"), [(END, 1), (STANDS, 1), (WRONG, 1), (JUMPS, 0)])
+def test_a_fault_of_the_motor_that_is_found_with_the_relay_off_counts_as_one_try(fault: Fault, tries: int) -> None:
+    tried = Tried()
+    tried.attempts.note(fault, tried.now_s, cause=None)
+    assert tried.attempts.tries(tried.now_s).faults == tries
+
+
 def test_a_fault_may_come_before_the_first_reading_of_the_axis() -> None:
     attempts = Attempts(Axis.AZIMUTH, LIMITS)
     assert attempts.fail(JUMPS)
