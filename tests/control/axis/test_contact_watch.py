@@ -189,6 +189,17 @@ def test_a_doubted_relay_whose_run_showed_nothing_is_given_up_after_its_coast(ch
     assert shaft.watch.unsure is (changes == 0)
 
 
+def test_a_doubted_relay_is_not_given_up_while_its_run_goes_on() -> None:
+    shaft = doubted(PLUS)
+    shaft.switch.to(shaft.now_s, PLUS)
+    for _ in range(4):
+        shaft.pass_by(0.5)
+        assert not shaft.watch.unsure
+    shaft.switch.to(shaft.now_s, OFF)
+    shaft.pass_by(COAST_S + 0.2)
+    assert shaft.watch.unsure
+
+
 def test_a_run_the_other_way_says_nothing_of_the_relay_in_doubt() -> None:
     shaft = doubted(PLUS)
     shaft.run(MINUS)
