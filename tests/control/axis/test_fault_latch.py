@@ -170,3 +170,17 @@ def test_a_person_ends_what_an_earlier_run_left() -> None:
 def test_without_tries_an_earlier_fault_is_none() -> None:
     latch = FaultLatch(before=STANDS)
     assert (latch.fault, latch.kind, latch.tries(0.0)) == (None, None, 0)
+
+
+def test_the_next_run_is_told_the_kind_of_the_latest_fault_that_stopped_the_motor() -> None:
+    latch = FaultLatch()
+    for fault, tries, kind in (
+        (JUMPS, 0, None),
+        (STANDS, 1, STANDS.kind),
+        (SILENT, 1, STANDS.kind),
+        (JUMPS, 1, JUMPS.kind),
+    ):
+        latch.note(fault, 10.0, cause=None, tries=tries)
+        assert latch.kind is kind
+        latch.note(None, 10.0, cause=None, tries=0)
+        latch.acknowledge(10.0, by_person=True)

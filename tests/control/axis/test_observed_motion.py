@@ -6,7 +6,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.observed_motion import ObservedMotion, SpeedWindow
+from rotator.control.axis.observed_motion import RELAY_SETTLES_S, ObservedMotion, SpeedWindow
 from rotator.control.sky.mount import Range
 from tests.control.axis.switch import Switch
 
@@ -136,3 +136,18 @@ def test_a_first_run_is_looked_at_whole_and_a_later_one_at_its_end() -> None:
 @pytest.mark.parametrize(("axis", "name"), [(Axis.AZIMUTH, "counter-clockwise"), (Axis.ELEVATION, "down")])
 def test_a_direction_has_the_name_that_a_person_uses(axis: Axis, name: str) -> None:
     assert ObservedMotion(axis, Range(0.0, 90.0), {PLUS: RIGHT, MINUS: LEFT}).name(MINUS) == name
+
+
+def test_a_run_is_looked_at_whole_from_when_its_motor_was_due_to_turn(seen: ObservedMotion) -> None:
+    """Its relay settles, and it lags: what came before says nothing of its speed."""
+    ready(seen)
+    Switch(seen.note_relays).to(10.0, PLUS)
+    due_s, told_s = 10.0 + RELAY_SETTLES_S + LAG_S, None
+    for step in range(1, 100):
+        at_s = 10.0 + step * STEP_S
+        seen.see(at_s, 100.0 + 2.0 * max(0.0, at_s - due_s))
+        slope = seen.whole_run(at_s, 1.6)
+        if slope is not None:
+            told_s = told_s or at_s
+            assert slope.speed_dps == pytest.approx(2.0, rel=0.05)
+    assert told_s == pytest.approx(due_s + 1.6, abs=1.5 * STEP_S)
