@@ -79,9 +79,10 @@ def test_a_hot_motor_rests() -> None:
     a_permit, _ = permit(dataclasses.replace(SETTINGS, longest_run_s=5.0, rest_s=10.0))
     relays = RelayState().changed(0.0, PLUS)
     for second in range(7):
+        assert (a_permit.cooling, a_permit.notice is None) == (second > 5, second <= 5)
         a_permit.note_relays(float(second), relays)
-    assert a_permit.cooling
     assert a_permit.notice is not None
+    assert a_permit.notice.text == "motor hot: it has run for 5 s and has to rest"
     assert a_permit.permitted(RUN, 10.0, 0.05, ends=(), switches=()) is None
 
 
