@@ -180,7 +180,7 @@ class Sensing:
         if len(self._jumps) < JUMPS or reading.at_s - self._jumps[0][0] > JUMPS_WITHIN_S:
             return None
         sizes_deg = [jump_deg for _, jump_deg in self._jumps]
-        if min(sizes_deg) > 0 or max(sizes_deg) < 0:
+        if abs(sum(sizes_deg)) == sum(map(abs, sizes_deg)):
             return None  # all one way: that may be a fast rotor
         measured = f"by {max(map(abs, sizes_deg)):.0f}°, {JUMPS} times in {JUMPS_WITHIN_S:g} s"
         self._jumped = Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")

@@ -40,6 +40,7 @@ def bench() -> Bench:
 def test_before_the_first_reading_nothing_is_believed(bench: Bench) -> None:
     assert not bench.sensing.believable
     assert bench.sensing.angle_deg is None
+    assert bench.sensing.places == ()
 
 
 @pytest.mark.parametrize(("raw", "angle_deg"), [(0.02, -6.0), (0.05, 0.0), (0.5, 90.0), (0.95, 180.0), (0.98, 186.0)])
