@@ -180,3 +180,19 @@ def test_on_a_pot_without_a_calibration_no_run_is_remembered_as_in_vain() -> Non
     axis.look(looks=40)
     tries = axis.faults.tries(axis.now_s)
     assert (tries.driven, tries.pressed) == (False, False)
+
+
+@pytest.mark.parametrize("by_person", [False, True])
+def test_presses_in_vain_are_forgotten_when_a_person_acknowledges_and_a_link_does_not(by_person: bool) -> None:
+    axis = Watched(replace(POT, calibration=None))
+    axis.look(looks=10)
+    for _ in range(3):
+        assert not axis.faults.vain_presses
+        axis.drive(PLUS)
+        axis.look(looks=30)
+        axis.drive(OFF)
+        axis.look(looks=30)
+    assert axis.faults.vain_presses
+    assert axis.faults.tries(axis.now_s).pressed
+    axis.faults.acknowledge(axis.now_s, by_person=by_person)
+    assert axis.faults.vain_presses is not by_person
