@@ -204,3 +204,16 @@ def test_a_connection_that_never_sent_leaves_nothing(senders: Senders) -> None:
     senders.left(ONE, 1.0)
     assert senders.silence(ONE) == ""
     assert not senders.streams(ONE)
+
+
+@pytest.mark.parametrize("given_back", [False, True])
+def test_given_back_a_program_that_connects_for_each_order_is_heard_again(senders: Senders, given_back: bool) -> None:
+    for number in range(1, 5):
+        senders.note(Source("rotctld", number), float(number), HERE)
+        senders.left(Source("rotctld", number), float(number))
+    senders.note(ONE, 4.5, THERE)
+    senders.take(ONE, 4.5)
+    if given_back:
+        senders.free_taken()
+    senders.note(Source("rotctld", 5), 5.0, HERE)
+    assert (senders.silence(Source("rotctld", 5)) == "") is given_back
