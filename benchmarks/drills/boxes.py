@@ -28,6 +28,7 @@ CONVERTER = ("adc-noisy", "adc-gaps")
 RELAYS = ("motor-stalled", "motor-reversed", "hand-turns")
 BOTH = ("azimuth", "elevation")
 FIRMWARE = ("gate-driver", "over-voltage", "encoder", "over-temperature", "under-voltage", "position-invalid", "timing")
+CHIMNEY_SHARE = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +142,7 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
         start_deg = (90.0, 90.0)
     if rotor.kind == "moteus" and chance.random() < 0.8:
         tables["control"] = {"rate_hz": 20}  # as every other kind; its own 50 Hz costs more than twice as much
-    if chance.random() < 0.25:
+    if chance.random() < CHIMNEY_SHARE:
         _sector(chance, tables, start_deg, top_deg)
     if chance.random() < 0.1:
         tables["sky"] = {"follow": [{"name": draw_arc(chance, chance.uniform(0.0, 200.0))} for _ in range(2)]}

@@ -49,6 +49,9 @@ def sensed(chance: random.Random, mast: Mast) -> Mast:
         mast.rotor, faults=(*RELAYS, "stop-early"), shared=CHIPS, sporadic=(), shared_sporadic=CHIPS_SPORADIC
     )
     tables = _merged(mast.tables, AS5600)
+    mount = tables.get("mount", {})
+    if any(low >= high_deg for low, _ in (sector["azimuth_deg"] for sector in mount.get("forbidden", []))):
+        tables["mount"] = {key: value for key, value in mount.items() if key != "forbidden"}
     top_deg = high_deg, mast.top_deg[1]
     return replace(mast, rotor=rotor, tables=tables, start_deg=start_deg, top_deg=top_deg, has_pots=False)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import benchmarks.drills
-from benchmarks.drills import unusual
+from benchmarks.drills import boxes, unusual
 from benchmarks.drills.box import configured
 from benchmarks.drills.boxes import BOTH, ROTORS, Rotor
 from benchmarks.drills.campaign import seeds, verdict
@@ -125,5 +125,6 @@ def test_every_box_that_is_drawn_can_be_configured(
     """Also the unusual ones, which are drawn far more often here."""
     for share in ("SENSORS_SHARE", "SECTORS_SHARE", "LINKS_SHARE", "TABLES_SHARE", "HOURS_SHARE"):
         monkeypatch.setattr(unusual, share, 0.7)
-    for number in range(20):
+    monkeypatch.setattr(boxes, "CHIMNEY_SHARE", 0.7)
+    for number in range(80):
         configured(draw(f"3.{number}", rotor.kind), tmp_path)
