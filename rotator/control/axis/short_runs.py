@@ -32,6 +32,9 @@ STOOD_STARTS = 10
 """But this many runs of any length move even an antenna that only creeps to its target, if most of them led one way. To
 and fro about its target an antenna turns by less than its readings scatter."""
 
+REACHED_S = 0.3
+"""So long after its relay opened the readings show how far a run has led. Later the wind may have turned it back."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Ended:
@@ -75,6 +78,10 @@ class ShortRuns:
         self._starts = 0
         self._driven_s = 0.0
         """The starts since it was last seen to move, and the time of their runs, plus one way and minus the other."""
+        self._reached_deg: float | None = None
+        """Where the last run has led; None: the readings cannot show it yet."""
+        self._gained_deg = 0.0
+        """How far those runs have led in all, each in its own direction. The wind may have turned the axis back."""
         self._backwards = 0
         self.tries = 0
         """Runs without motion since the last fault."""
@@ -95,12 +102,12 @@ class ShortRuns:
         self._smoothed.forget()
         self._stands_deg = self._run = self._ended = self._from_deg = None
         self._runs = self._starts = self._backwards = self.tries = 0
-        self._stood_s = self._driven_s = 0.0
+        self._stood_s = self._driven_s = self._gained_deg = 0.0
 
     def struck(self, kind: FaultKind) -> None:
         """A fault has stopped the axis. If it stood still, one more run without motion is enough for the next fault."""
         self._run, self._ended, self._counted, self.tries = None, None, False, 0
-        self._starts, self._driven_s = 0, 0.0
+        self._starts, self._driven_s, self._gained_deg = 0, 0.0, 0.0
         if kind in STANDING_FAULTS:
             self._runs, self._stood_s = STOOD_RUNS - 1, 0.0
 
@@ -108,7 +115,7 @@ class ShortRuns:
         """The relays have changed. `speed_dps`: of the motor that runs now."""
         if self._run is not None:
             self._ended = _Ended(self._run.direction, relays.since_s - self._run.since_s, relays.since_s)
-            self._run = None
+            self._run, self._reached_deg = None, None
         if relays.closed:
             self._count()
             if self._moved:
@@ -129,9 +136,11 @@ class ShortRuns:
         if self._stands_deg is None or abs(smoothed_deg - self._stands_deg) >= moved_deg:
             self._known = self._known or (self._stands_deg is not None and self._run is not None)
             self._stands_deg, self._runs, self._stood_s, self._moved = smoothed_deg, 0, 0.0, True
-            self._starts, self._driven_s = 0, 0.0
+            self._starts, self._driven_s, self._gained_deg = 0, 0.0, 0.0
             self.tries = 0
         self._moved_deg = moved_deg
+        if self._ended is not None and self._reached_deg is None and at_s - self._ended.off_s >= REACHED_S:
+            self._reached_deg = smoothed_deg
         if self._ended is not None and at_s - self._ended.off_s >= SETTLES_S:
             self._count()
         if not self._counted:
@@ -144,6 +153,11 @@ class ShortRuns:
         if self._backwards >= STOOD_RUNS:
             measured = f"its motor ran {name} {self._backwards} times, and the angle went back each time"
             return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}°")
+        if self._gained_deg >= moved_deg * math.sqrt(max(1, self._starts)):
+            # It turns each time, and something turns it back. The scatter of a sum grows as the root of its number.
+            self._runs = self._starts = self.tries = 0
+            self._stood_s = self._driven_s = self._gained_deg = 0.0
+            return None
         # A slow motor among noisy readings needs longer to show that it moves.
         enough_s = max(STOOD_S if self._known else UNKNOWN_STOOD_S, moved_deg / (TOLD_SHARE * self._speed_dps))
         one_way_s = abs(self._driven_s)
@@ -166,6 +180,9 @@ class ShortRuns:
         if self._moved:
             return
         self._starts, self._driven_s = self._starts + 1, self._driven_s + run_s * way
+        if self._from_deg is not None and self._smoothed.deg is not None:
+            reached_deg = self._smoothed.deg if self._reached_deg is None else self._reached_deg
+            self._gained_deg += (reached_deg - self._from_deg) * way
         if run_s >= LEAST_RUN_S:
             self._runs += run_s >= self._telling_s
             self._stood_s += run_s

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import random
 
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.short_runs import LEAST_RUN_S, STOOD_STARTS, ShortRuns
+from rotator.control.axis.short_runs import (
+    LEAST_RUN_S,
+    MOVED_DEG,
+    MOVED_NOISES,
+    STOOD_STARTS,
+    TOLD_SHARE,
+    ShortRuns,
+)
 from rotator.exchange.faults import Fault, FaultKind
 from tests.control.axis.switch import Switch
 
@@ -19,16 +27,18 @@ PLUS, MINUS = Direction.PLUS, Direction.MINUS
 class Bench:
     """An axis looked at twenty times a second. It turns at `pace` of its motor's speed, and coasts 0.15 s."""
 
-    def __init__(self, pace: float = 1.0, noise_deg: float = 0.1, *, known: bool = True) -> None:
+    def __init__(self, pace: float = 1.0, noise_deg: float = 0.1, *, known: bool = True, seed: int = 5) -> None:
         self.pace = pace
         self._noise_deg = noise_deg
-        self._chance = random.Random(5)
+        self._chance = random.Random(seed)
         self._runs = ShortRuns(Axis.AZIMUTH)
         self._relays = Switch(lambda relays: self._runs.note_relays(relays, SPEED_DPS))
         self._way = Direction.OFF
         self._speed_dps = 0.0
         self._angle_deg = 100.0
         self._now_s = 10.0
+        self.wind_dps = 0.0
+        """It turns the axis while its motor has no current."""
         self.faults: list[Fault] = []
         self.look(1.0)
         if known:
@@ -46,7 +56,7 @@ class Bench:
         for _ in range(round(seconds / STEP_S)):
             self._now_s += STEP_S
             self._speed_dps += (self._way * SPEED_DPS * self.pace - self._speed_dps) / 3.0
-            self._angle_deg += self._speed_dps * STEP_S
+            self._angle_deg += (self._speed_dps + (0.0 if self._way else self.wind_dps)) * STEP_S
             seen_deg = self._angle_deg + self._chance.gauss(0.0, self._noise_deg)
             if (found := self._runs.see(self._now_s, seen_deg, self._noise_deg)) is not None:
                 self.faults.append(found)
@@ -159,3 +169,29 @@ def test_after_a_run_that_has_moved_the_axis_the_next_start_does_not_wait() -> N
     bench = Bench(pace=1.0)
     bench.press(PLUS, 0.4, 0.1)
     assert not bench.settles
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_motor_that_holds_its_antenna_against_a_steady_wind_is_not_accused(seed: int) -> None:
+    """Each short run leads it back to its target, and the wind turns it away again, by as much."""
+    chance = random.Random(seed)
+    noise_deg, pace = chance.choice((0.0, 0.1, 0.2, 0.4)), chance.uniform(0.4, 1.2)
+    stroke_deg = max(MOVED_DEG, MOVED_NOISES * noise_deg) * chance.uniform(1.3, 2.2)
+    run_s, pause_s = stroke_deg / (SPEED_DPS * pace), chance.choice((0.7, 1.0, 2.0))
+    bench = Bench(noise_deg=noise_deg, seed=seed)
+    bench.pace, bench.wind_dps = pace, -stroke_deg / pause_s
+    for _ in range(30):
+        bench.press(PLUS, run_s, pause_s)
+    assert bench.faults == []
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_motor_that_stands_is_told_among_noise_however_long_its_runs_are(seed: int) -> None:
+    chance = random.Random(seed)
+    noise_deg, way = chance.choice((0.0, 0.1, 0.2, 0.4)), chance.choice((PLUS, MINUS))
+    run_s = chance.uniform(0.1, 0.8)
+    needed = max(STOOD_STARTS, math.ceil(MOVED_NOISES * noise_deg / (TOLD_SHARE * SPEED_DPS * run_s)))
+    bench = Bench(pace=0.0, noise_deg=noise_deg, seed=seed)
+    for _ in range(needed + 1):
+        bench.press(way, run_s, 0.7)
+    assert FaultKind.STANDS_STILL in bench.kinds
