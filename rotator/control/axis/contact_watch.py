@@ -71,6 +71,10 @@ class ContactWatch:
         """For how long relays were closed since the contact last changed."""
         self.turns = False
         """The contact has changed while the relays were off, and has not been silent since then."""
+        self._doubted_before = False
+        """A relay was in doubt already when these changes began."""
+        self.caught = False
+        """The latest reading shows that such a relay is closed: its motor has current."""
         self._settled = False
         """The contact has been silent for long enough since the latest run."""
         self._ran_since = dict.fromkeys(BOTH_WAYS, False)
@@ -134,7 +138,7 @@ class ContactWatch:
             went_back = (angle_deg - self._angle_deg) * relays.last < 0.0
             again_ahead = relays.last in condition.ahead - self._ahead
             self._turned_back = self._turned_back or went_back or again_ahead
-        self._angle_deg, self._ahead = angle_deg, condition.ahead
+        self._angle_deg, self._ahead, self.caught = angle_deg, condition.ahead, False
         if changed:
             self._changed_s, self._blind_s, self._settled = at_s, 0.0, False
         if relays.closed:
@@ -182,7 +186,9 @@ class ContactWatch:
 
     def _turns_by_itself(self) -> None:
         """The contact changes by itself. It does not show in which direction the axis turns."""
-        self.turns = True
+        if not self.turns:
+            self._doubted_before = Trust.DOUBTED in self._trusts.both
+        self.turns, self.caught = True, self._doubted_before
         for way in BOTH_WAYS:
             if self._trusts.of(way) is not Trust.OPEN and way is self._relays.last:
                 self._doubt(way)

@@ -13,7 +13,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.contact_watch import ContactWatch
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import NORMAL, Condition
-from rotator.control.axis.relay_faults import WAYS, accusation
+from rotator.control.axis.relay_faults import WAYS, accusation, unstoppable
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.silent_runs import SilentRuns
@@ -98,8 +98,13 @@ class RunWatch:
             self._contact.silent()
         relays = self._relays
         if not relays.closed:
-            return None
+            return self._runs_on() if self._master and self._contact.caught else None
         return silent or endless(self._axis, relays.direction, at_s - relays.since_s, self._limits, speed_dps)
+
+    def _runs_on(self) -> Fault:
+        """A doubt and two changes are enough where a master cuts the supply: the contact may stick at any moment."""
+        measured = "a relay is in doubt, and its contact changes though its relays are off"
+        return unstoppable(Fault(FaultKind.TURNS_BY_ITSELF, self._axis, measured), master=self._master)
 
     def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
         """The contact shows what it has shown before."""

@@ -9,6 +9,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
+from rotator.exchange.faults import Fault, FaultKind
 from rotator.exchange.motor import ALL_OPEN, Trust
 from tests.control.axis.switch import Switch
 
@@ -22,10 +23,13 @@ CLOSED_S, OPEN_S = 1.0 / 6.0, 4.0 / 6.0
 class Shaft:
     """A watched axis, whose contact changes when the test says so."""
 
-    def __init__(self, *, look: bool = False) -> None:
+    def __init__(self, *, look: bool = False, master: bool = False) -> None:
         motor = Motor(6.0, 0.6)
         motors, limits = {PLUS: motor, MINUS: motor}, Range(0.0, 360.0)
-        self.watch = RunWatch(Axis.AZIMUTH, limits, motors, PERIOD_S, COAST_S, master=False, trusts=ALL_OPEN, look=look)
+        self.watch = RunWatch(
+            Axis.AZIMUTH, limits, motors, PERIOD_S, COAST_S, master=master, trusts=ALL_OPEN, look=look
+        )
+        self.faults: list[Fault] = []
         self.switch = Switch(self.watch.note_relays)
         self.now_s = 100.0
         self._changes = 0
@@ -38,7 +42,8 @@ class Shaft:
         end_s = self.now_s + seconds
         while self.now_s < end_s - 1e-9:
             self.now_s += 0.05
-            self.watch.see(self.now_s, self.angle_deg, self._condition)
+            if fault := self.watch.see(self.now_s, self.angle_deg, self._condition):
+                self.faults.append(fault)
 
     @property
     def _condition(self) -> Condition:
@@ -146,9 +151,9 @@ def test_before_its_first_relay_the_contact_is_seen_to_be_silent(way: Direction)
 # --- a doubt, and what ends it
 
 
-def doubted(way: Direction = PLUS) -> Shaft:
+def doubted(way: Direction = PLUS, *, master: bool = False) -> Shaft:
     """It ran into its stop and was held there: the relay of that run is in doubt."""
-    shaft = Shaft()
+    shaft = Shaft(master=master)
     shaft.ahead = frozenset((Direction(-way),))
     shaft.run(way)
     shaft.pass_by(10.0)
@@ -198,6 +203,41 @@ def test_a_doubted_relay_is_not_given_up_while_its_run_goes_on() -> None:
     shaft.switch.to(shaft.now_s, OFF)
     shaft.pass_by(COAST_S + 0.2)
     assert shaft.watch.unsure
+
+
+@pytest.mark.parametrize("changes", range(5))
+@pytest.mark.parametrize("own_run", [True, False])
+@pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
+def test_two_changes_after_its_coast_are_enough_to_cut_a_doubted_relay_s_supply(
+    way: Direction, changes: int, *, own_run: bool
+) -> None:
+    """It may be the last that its contact shows. Only a master can cut; without one the counter waits to be sure."""
+    for master in (True, False):
+        shaft = doubted(way, master=master)
+        if own_run:
+            shaft.run(way)
+            shaft.pass_by(COAST_S + 0.2)
+        shaft.turn(changes)
+        assert [fault.cut for fault in shaft.faults[:1]] == [True] * (master and changes >= 2)
+        assert all(fault.kind is FaultKind.TURNS_BY_ITSELF for fault in shaft.faults)
+
+
+@pytest.mark.parametrize("changes", range(8))
+def test_a_relay_that_was_not_in_doubt_is_left_to_the_counter(changes: int) -> None:
+    """It knows whether the changes come as evenly as a motor makes them: wind may rock the antenna about an edge."""
+    shaft = Shaft(master=True)
+    shaft.run(PLUS)
+    shaft.pass_by(COAST_S + 0.2)
+    shaft.turn(changes)
+    assert shaft.faults == []
+
+
+def test_what_rocked_the_antenna_is_forgotten_once_its_contact_is_silent() -> None:
+    shaft = doubted(master=True)
+    for _ in range(3):
+        shaft.turn(1)
+        shaft.pass_by(5.0)
+    assert shaft.faults == []
 
 
 def test_a_run_the_other_way_says_nothing_of_the_relay_in_doubt() -> None:
