@@ -19,6 +19,8 @@ class IdlePark:
         self._after_s = after_s
         self._busy_s: float | None = None
         """When the last order came, or its motion was last seen; None: the next order is awaited."""
+        self._carries_out = False
+        """It was busy with that order when this was asked last."""
 
     def ordered(self, now_s: float) -> None:
         """An order moves the antenna."""
@@ -26,14 +28,17 @@ class IdlePark:
 
     def ended(self) -> None:
         """What was ordered has ended otherwise: by a stop, a fault, a lost link, or because the antenna parks."""
-        self._busy_s = None
+        self._busy_s, self._carries_out = None, False
 
     def due(self, now_s: float, *, busy: bool) -> bool:
         """Asked once a cycle: whether to park now. `busy`: an axis turns, or waits and will turn on by itself."""
         if self._after_s <= 0 or self._busy_s is None:
             return False
         if busy:
-            if now_s - self._busy_s <= CONTINUES_S:
+            # However late the cycles come, what was busy with the order and still is has not finished it.
+            self._carries_out = self._carries_out or now_s - self._busy_s <= CONTINUES_S
+            if self._carries_out:
                 self._busy_s = now_s
             return False
+        self._carries_out = False
         return now_s - self._busy_s >= self._after_s

@@ -144,7 +144,7 @@ class Movements:
         if self.timed.running or self._homing.active or self._aiming.flown is not None:
             return True
         return any(
-            control.moving(now_s) or control.cooling or (control.busy and control.aiming is None)
+            control.moving(now_s) or control.waits or (control.busy and control.aiming is None)
             for control in self._axes.values()
         )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
 from rotator.control.idle_park import CONTINUES_S, IdlePark
@@ -71,3 +73,23 @@ def test_after_an_end_it_waits_for_the_next_order_even_while_the_antenna_is_busy
     assert parks_at(idle, until_s=300.0, busy=((0.0, 20.0),)) is None
     idle.ordered(300.0)
     assert idle.due(300.0 + AFTER_S, busy=False)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_however_late_it_is_asked_it_never_parks_before_the_order_has_been_done_for_its_time(
+    idle: IdlePark, seed: int
+) -> None:
+    """A busy computer asks seldom. The order is carried out in pieces, with pauses that continue it."""
+    chance = random.Random(seed)
+    begin_s, pieces = 0.0, []
+    for _ in range(chance.randrange(1, 6)):
+        begin_s += chance.uniform(0.0, 0.4 * CONTINUES_S)
+        pieces.append((begin_s, begin_s := begin_s + chance.uniform(10.0, 100.0)))
+    idle.ordered(0.0)
+    now_s, last_s = 0.0, 0.0
+    while not idle.due(now_s, busy=any(low_s <= now_s < high_s for low_s, high_s in pieces)):
+        last_s = max((now_s for low_s, high_s in pieces if low_s <= now_s < high_s), default=last_s)
+        now_s += chance.choice((0.05, 0.05, 0.5, 3.0))
+        if any(low_s + 5.0 < now_s < high_s - 25.0 for low_s, high_s in pieces) and chance.random() < 0.1:
+            now_s += 20.0  # in the middle of a motion it had no turn
+    assert now_s >= max(last_s, pieces[-1][1] - 4.0) + AFTER_S - 1e-9

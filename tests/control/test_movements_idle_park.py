@@ -273,3 +273,17 @@ def test_it_parks_only_after_a_new_order_and_when_all_has_come_to_rest(
     desk = new_desk(counted=counted, at=(100.0, 30.0), park=tuple(PARKED.values()), park_after_s=AFTER_S)
     desk.step()
     play(desk, script)
+
+
+def test_while_a_relay_waits_no_idle_time_runs(new_desk: Any) -> None:
+    """Before a motor is reversed its contact has to be silent for some seconds: the order is still carried out."""
+    desk = new_desk(counted=True, at=(100.0, 30.0), park=tuple(PARKED.values()), park_after_s=0.1)
+    desk.step(Aim(300.0, 30.0), by=LINK)
+    desk.run(4.0)
+    desk.step(Aim(40.0, 30.0), by=LINK)
+    waited = 0
+    while abs(desk.status.azimuth.angle_deg - 40.0) > 6.0:
+        waited += desk.status.azimuth.waiting
+        assert desk.status.azimuth.target_deg == 40.0
+        desk.step()
+    assert waited * 0.05 > 1.0

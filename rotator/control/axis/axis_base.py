@@ -56,7 +56,7 @@ class AxisBase(ABC, Generic[Settings]):
         return False
 
     @property
-    def cooling(self) -> bool:
+    def waits(self) -> bool:
         return False
 
     @property

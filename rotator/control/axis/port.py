@@ -67,8 +67,8 @@ class ControlledAxis(Protocol):
         """Whether it is on its way to its end stop."""
 
     @property
-    def cooling(self) -> bool:
-        """Whether its motor has run for long, and has to rest before it goes on."""
+    def waits(self) -> bool:
+        """Whether its motor rests after a long run, or its relay may not close yet: it goes on by itself."""
 
     def moving(self, now_s: float) -> bool:
         """Driven, or still coasting."""

@@ -88,8 +88,8 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         return self._settings.homing is not None
 
     @property
-    def cooling(self) -> bool:
-        return self._permit.cooling
+    def waits(self) -> bool:
+        return self._permit.cooling or self._gate.waiting
 
     def moving(self, now_s: float) -> bool:
         return self._relays.off_for_s(now_s) < SETTLED_AFTER_S

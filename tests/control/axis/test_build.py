@@ -33,7 +33,7 @@ def built(settings: AxisSettings) -> ControlledAxis:
 def test_each_kind_says_what_it_has(settings: AxisSettings, has_relays: bool, homeable: bool) -> None:
     axis = built(settings)
     assert (axis.has_relays, axis.homeable) == (has_relays, homeable)
-    assert (axis.homing, axis.cooling, axis.busy) == (False, False, False)
+    assert (axis.homing, axis.waits, axis.busy) == (False, False, False)
 
 
 @pytest.mark.parametrize("settings", [MEASURED, POSITIONED], ids=["measured", "positioned"])
@@ -61,9 +61,9 @@ def test_a_motor_that_ran_for_its_longest_time_cools_for_half_of_its_rest() -> N
     axis = built(replace(MEASURED, longest_run_s=10.0, rest_s=60.0))
     axis.note_driven(0.0, Direction.PLUS)
     axis.note_driven(9.0, Direction.PLUS)
-    assert not axis.cooling
+    assert not axis.waits
     axis.note_driven(10.0, Direction.OFF)
     axis.note_driven(39.0, Direction.OFF)
-    assert axis.cooling
+    assert axis.waits
     axis.note_driven(40.0, Direction.OFF)
-    assert not axis.cooling
+    assert not axis.waits
