@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable, Mapping
 
 from hw.drives.relays import RelayBank
-from hw.ports import AngleSensor, AngleSource, Axis, Direction
+from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
 from hw.sensors.pulses import PulseCounter
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import unstoppable
@@ -123,10 +123,16 @@ class CountedAxis:
     def place(self, angle_deg: float) -> None:
         """The axis stands at this angle of the rotor's own scale: at its end stop, or confirmed by a user.
 
-        Raises HardwareError.
+        Raises HardwareError: its contact cannot be read. Then no angle is known, for the former one was to be wrong.
         """
         with self._lock:
-            self._place(angle_deg, self._within_deg)
+            try:
+                self._place(angle_deg, self._within_deg)
+            except HardwareError:
+                self._doubt = "its contact could not be read when its angle was given"
+                if self._counts_writer:
+                    self._counts_writer.lost(self._axis)
+                raise
             if self._counts_writer and not self._counter.trouble:
                 self._counts_writer.homed(self._axis, self._counter.read())
 

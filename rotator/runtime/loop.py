@@ -18,6 +18,7 @@ from rotator.exchange.orders import Order, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Latch, Status
 from rotator.rotors.port import Rotor
+from rotator.runtime.errands import Errands
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
 from rotator.runtime.journal import Journal
@@ -66,7 +67,7 @@ class ControlLoop:
         self._after_good_step = after_good_step
         self._events, self._page_events = events, page_events
         self._keep_latch, self._keep_tries = keep_latch, keep_tries
-        self._rotor = rotor
+        self._rotor, self._errands = rotor, Errands(rotor)
         self._clock = clock
         self._period_s = period_s
         self._journal = Journal(clock)
@@ -121,7 +122,8 @@ class ControlLoop:
         self._watch_links(now_s)
         commands = self._controller.step(now_s, self._sensors.readings, orders)
         driven = {}
-        self._run_errands()
+        self._errands.run(self._controller.errands, now_s)
+        self._controller.errands.clear()
         for axis, command in commands.items():
             try:
                 driven[axis] = self._rotor.obey(axis, command)
@@ -132,8 +134,8 @@ class ControlLoop:
                 self._journal.note(DRIVES[axis], str(fault))
         self._controller.note_driven(now_s, driven)
         self.status = self._controller.status(now_s, self._late_s)
-        if self.unkept:
-            self.status = replace(self.status, notices=self.status.notices + self.unkept)
+        if more := self.unkept + self._errands.notices(now_s):
+            self.status = replace(self.status, notices=self.status.notices + more)
         if self.status.latch != before.latch:
             self._keep_latch(self.status.latch)
         if (tries := _tries(self.status)) != _tries(before):
@@ -202,15 +204,6 @@ class ControlLoop:
         if page_stalled_s:
             self._controller.page_lost()
         self._journal.note(PAGE_LOOP, "it stands still: what was turned there has ended" if page_stalled_s else "")
-
-    def _run_errands(self) -> None:
-        """Carry out the controller's errands, such as passing the confirmed angle of an axis to its rotor."""
-        for errand in self._controller.errands:
-            try:
-                self._rotor.run(errand)
-            except HardwareError as fault:
-                log.error("%s", fault)
-        self._controller.errands.clear()
 
     def _switch_supply(self) -> None:
         """Cut the motors' supply when a fault requires it; restore it after the acknowledgement. Try until it works."""

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from hw.drives.relays import RelayBank
-from hw.ports import AngleSource, Direction
+from hw.ports import AngleSource, Direction, HardwareError
 from rotator.control.commands import Place as Placed
 from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
@@ -270,3 +270,14 @@ def test_without_a_file_nothing_is_waited_for() -> None:
     axis.begin(KNOWN)
     assert axis.start(lambda: PLUS) is PLUS
     assert axis.read() == pytest.approx(180.0, abs=0.3)
+
+
+@pytest.mark.parametrize("kept", [KNOWN, NEVER], ids=["known", "never"])
+def test_an_angle_that_could_not_be_taken_leaves_none_also_after_a_restart(path: Path, kept: Place) -> None:
+    """A person has said that it stands elsewhere than the count: with the old one it would turn beyond its stops."""
+    mast = Mast(path, kept)
+    mast.rig.contact.close()
+    with pytest.raises(HardwareError):
+        mast.rotor.run(Placed(AZ, 90.0))
+    assert mast.axis.condition(NO_ENDS).lost == "its contact could not be read when its angle was given"
+    assert mast.on_disk().standing is not Standing.KNOWN

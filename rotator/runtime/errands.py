@@ -1,0 +1,52 @@
+"""What the rotor is to do once: a fault acknowledged, an angle taken, motors let go. Says what the rotor refused.
+
+Knows errands, moments and the words for a person. Does not repeat an errand: the axis may stand elsewhere by then.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable
+
+from hw.ports import HardwareError
+from rotator.control.commands import Acknowledge, Errand, Place
+from rotator.rotors.port import Rotor
+
+log = logging.getLogger(__name__)
+
+SAID_S = 60.0
+"""For so long the status says that an errand has failed."""
+
+
+class Errands:
+    def __init__(self, rotor: Rotor) -> None:
+        self._rotor = rotor
+        self._failed: dict[str, tuple[float, str]] = {}
+        """By what was to be done: when it failed last, and why."""
+
+    def run(self, errands: Iterable[Errand], now_s: float) -> None:
+        """Carry them out. What the rotor refuses is said; the person who ordered it has been answered already."""
+        for errand in errands:
+            name = _name(errand)
+            try:
+                self._rotor.run(errand)
+                self._failed.pop(name, None)
+            except HardwareError as fault:
+                log.error("%s: %s", name, fault)
+                self._failed[name] = (now_s, str(fault))
+
+    def notices(self, now_s: float) -> tuple[str, ...]:
+        """What has failed lately, for the status."""
+        self._failed = {name: failed for name, failed in self._failed.items() if now_s - failed[0] < SAID_S}
+        return tuple(f"{name}: {why}" for name, (_, why) in self._failed.items())
+
+
+def _name(errand: Errand) -> str:
+    """What it means for a person that this errand failed."""
+    match errand:
+        case Acknowledge(axis):
+            return f"the fault of {axis.value} is not acknowledged"
+        case Place(axis):
+            return f"{axis.value} has not taken the angle"
+        case _:
+            return "the motors may still have their torque"
