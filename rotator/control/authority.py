@@ -31,8 +31,19 @@ class Authority:
     `agree_deg`: two directions closer than this count as equal.
     """
 
-    def __init__(self, mode: Mode = Mode.AUTO, agree_deg: float = AGREE_DEG, latch: Latch | None = None) -> None:
-        """`latch`: what was in force when the program ended. A storm park is not continued by itself."""
+    def __init__(
+        self,
+        mode: Mode = Mode.AUTO,
+        agree_deg: float = AGREE_DEG,
+        latch: Latch | None = None,
+        *,
+        attended: bool = False,
+    ) -> None:
+        """`latch`: what was in force when the program ended. A storm park is not continued by itself.
+
+        `attended`: an axis is calibrated, and a person may stand at the rotor: only persons move it.
+        """
+        self._attended = attended
         self.latched = latch.by if latch else ""
         """The source of a stop or storm park that only a person releases; empty: nothing is latched."""
         self.storm = latch is not None and latch.storm
@@ -196,4 +207,6 @@ class Authority:
         # A stop that comes over a link does not silence the person at the panel for longer.
         if self.mode is Mode.AUTO and (silence := self._senders.silence(source)):
             held[State.SILENCED] = silence
+        if self._attended and not source.is_person:
+            held[State.CALIBRATING] = "an axis is being calibrated"
         return held

@@ -61,7 +61,7 @@ class Controller:
         }
         self._axes = axes
         agree_deg = max(settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg)
-        self._authority = Authority(settings.mode, agree_deg, settings.latch)
+        self._authority = Authority(settings.mode, agree_deg, settings.latch, attended=settings.attended)
         self._movements = Movements(settings, axes)
         self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._starts = PassStarts()

@@ -12,6 +12,7 @@ from rotator.exchange.flight_order import Fly
 from rotator.exchange.orders import (
     Aim,
     Calibrate,
+    ClearTimed,
     Confirm,
     GiveBack,
     Home,
@@ -19,11 +20,14 @@ from rotator.exchange.orders import (
     LetGo,
     LoadTimed,
     Mode,
+    Nudge,
     Order,
     Park,
+    RelaysChecked,
     Release,
     RunTimed,
     SetMode,
+    Speed,
     Stop,
     Take,
 )
@@ -42,6 +46,7 @@ class State(Enum):
     HOMING = "homes for another person"
     SILENCED = "the link is silenced (`S`, a fight)"
     HELD = "held by a person on the page (programs)"
+    CALIBRATING = "an axis is calibrated (programs, `track`)"
     STORM = "storm park"
     STOPPED = "STOP"
     AT_PARK = "mode PARK"
@@ -52,10 +57,10 @@ class State(Enum):
 
 
 class Deed(Enum):
-    """An order, as the table's columns have it. The first four come over links, the others from persons."""
+    """An order, as the table's rows have it. The first four come over links, the others from persons."""
 
     AIM = "aim, list, `O`, `F`"
-    """Calibrate is in this column: it changes the meaning of all later angles."""
+    """Calibrate is in this row: it changes the meaning of all later angles."""
     JOG = "jog"
     PARK = "park"
     S = "`S`"
@@ -67,6 +72,16 @@ class Deed(Enum):
     MODE = "mode switch"
     TAKE = "take"
     LET_GO = "let-go"
+    NUDGE = "nudge"
+    """It ends nothing: it shifts the target in force and the later ones, but not that of a storm park."""
+    SPEED = "speed"
+    CHECKED = "relays-checked"
+    CLEAR = "clear the list"
+    """The antenna still turns to the list's present point."""
+
+
+QUIET = frozenset({None, Deed.NUDGE, Deed.SPEED, Deed.CHECKED, Deed.CLEAR})
+"""What no sender gives who moves the antenna: beside a plan that the box flies by itself it changes nothing."""
 
 
 class Effect(Enum):
@@ -84,21 +99,22 @@ class Effect(Enum):
 
 _WORDS = {"a": Effect.ACTS, "b": Effect.BESIDE, "s": Effect.STOPS, "-": Effect.NONE}
 _ROWS = {
-    # In the order of Deed: aim jog park, S STOP resume, storm home confirm, mode take let-go.
-    State.TRACKING: "aaa ssb aas sss",
-    State.JOGGING: "aaa ssb aas sss",
-    State.TIMED: "aaa ssb aas sss",
-    State.IDLE_PARK: "aaa ssb aas sss",
-    State.HOMING: "--- ssb a-- sss",
-    State.SILENCED: "--- ssb aas sss",
-    State.HELD: "--- ssb aas sss",
-    State.STORM: "--- ssb a-- s-s",
-    State.STOPPED: "--- ssb --b bbs",
-    State.AT_PARK: "--- ssb --b bbs",
-    State.AT_MANUAL: "--- ssb --b sss",
-    State.AT_JOG: "--- ssb --b sss",
-    State.OWN_JOG: "-a- ssb --b sss",
-    State.FAULT: "aaa ssb aas sss",
+    # As Deed: aim jog park, S STOP resume, storm home confirm, mode take let-go, nudge speed checked clear.
+    State.TRACKING: "aaa ssb aas sss bbbb",
+    State.JOGGING: "aaa ssb aas sss bbbb",
+    State.TIMED: "aaa ssb aas sss bbba",
+    State.IDLE_PARK: "aaa ssb aas sss bbbb",
+    State.HOMING: "--- ssb a-- sss bbbb",
+    State.SILENCED: "--- ssb aas sss bbbb",
+    State.HELD: "--- ssb aas sss bbbb",
+    State.CALIBRATING: "--- ssb aas sss bbbb",
+    State.STORM: "--- ssb a-- s-s bbbb",
+    State.STOPPED: "--- ssb --b bbs bbbb",
+    State.AT_PARK: "--- ssb --b bbs bbbb",
+    State.AT_MANUAL: "--- ssb --b sss bbbb",
+    State.AT_JOG: "--- ssb --b sss bbbb",
+    State.OWN_JOG: "-a- ssb --b sss bbbb",
+    State.FAULT: "aaa ssb aas sss bbbb",
 }
 TABLE: dict[State, dict[Deed, Effect]] = {
     state: {deed: _WORDS[cell] for deed, cell in zip(Deed, row.replace(" ", ""), strict=True)}
@@ -137,7 +153,7 @@ def hindrance(states: Iterable[State], deed: Deed) -> State | None:
 
 
 def deed_of(order: Order) -> Deed | None:
-    """The table's column for an order; None: the order does not move, stop or release an axis."""
+    """The table's row for an order; None: it only tells something, as `Leave` and `Remark` do."""
     match order:
         case Aim() | Fly() | LoadTimed() | RunTimed() | Calibrate():
             return Deed.AIM
@@ -159,6 +175,14 @@ def deed_of(order: Order) -> Deed | None:
             return Deed.TAKE
         case LetGo():
             return Deed.LET_GO
+        case Nudge():
+            return Deed.NUDGE
+        case Speed():
+            return Deed.SPEED
+        case RelaysChecked():
+            return Deed.CHECKED
+        case ClearTimed():
+            return Deed.CLEAR
         case _:
             return None
 

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable
 from typing import Protocol
 
-from rotator.control.rights import deed_of
+from rotator.control.rights import QUIET, deed_of
 from rotator.control.sky.flight_plan import Antenna
 from rotator.exchange.orders import GiveBack, Mode, Order
 from rotator.exchange.sources import Source
@@ -69,7 +69,7 @@ class Follower:
 
     def heard(self, source: Source, order: Order) -> None:
         """An order of any sender. When a person gives the antenna back, the plan goes on at once."""
-        if source != TRACK and deed_of(order) is not None:
+        if source != TRACK and deed_of(order) not in QUIET:
             rest_s = 0.0 if isinstance(order, GiveBack) else REST_S
             with self._lock:
                 self._rests_until_s = self._box.status().at_s + rest_s

@@ -52,6 +52,7 @@ class Desk:
         on_sky: bool = True,
         sectors: tuple[Sector, ...] = (),
         described: float = 1.0,
+        attended: bool = False,
     ) -> None:
         """`described`: the motors' speeds in the file, as a share of the real ones."""
         self._described = described
@@ -78,6 +79,7 @@ class Desk:
                 mount=Mount(self.range[AZ], self.range[EL], *park, sectors=sectors),
                 park_after_s=park_after_s,
                 on_sky=on_sky,
+                attended=attended,
             )
         )
         self._status: Status | None = None

@@ -13,24 +13,30 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.commands import Place
 from rotator.control.rights import TABLE, Deed, Effect, State
+from rotator.exchange.faults import Missing
 from rotator.exchange.orders import (
     Aim,
     Calibrate,
+    ClearTimed,
     Confirm,
     Home,
     Jog,
     LetGo,
     LoadTimed,
     Mode,
+    Nudge,
     Order,
     Park,
+    RelaysChecked,
     Release,
     RunTimed,
     SetMode,
+    Speed,
     Stop,
     Take,
 )
 from rotator.exchange.sources import Source
+from rotator.exchange.status import Trust
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
@@ -39,6 +45,9 @@ CONSOLE, PERSON, PANEL = Source("console", 1), Source("console", 2), Source("pan
 REVERSED_S = 9.0
 """Before a motor is reversed its contact is silent for as long as it may be between two pulses of a slow motor."""
 PARKED, FARTHER = (60.0, 20.0), (300.0, 90.0)
+NUDGED_DEG = 7.0
+HAVE_TARGETS = (State.TRACKING, State.TIMED, State.FAULT)
+"""A nudge shifts what was ordered; where an idle antenna parks was not."""
 AIMED, JOGGED = Aim(200.0, 30.0), Jog(EL, MINUS)
 
 
@@ -75,6 +84,12 @@ def silenced(desk: Any) -> None:
 def held(desk: Any) -> None:
     desk.step(Take(), by=Source("page", 1))
     desk.run(1.0)
+
+
+def calibrating(desk: Any) -> None:
+    """The azimuth is treated as never set up. The elevation stands, for no program may turn it."""
+    desk.step(Aim(*FARTHER), by=OTHER)
+    assert desk.run(1.0) == set()
 
 
 def storm(desk: Any) -> None:
@@ -117,6 +132,7 @@ SET_UP: dict[State, Callable[[Any], None]] = {
     State.HOMING: homing,
     State.SILENCED: silenced,
     State.HELD: held,
+    State.CALIBRATING: calibrating,
     State.STORM: storm,
     State.STOPPED: stopped,
     State.AT_PARK: switched(Mode.PARK),
@@ -138,11 +154,17 @@ ORDERS: dict[Deed, tuple[Source, Order]] = {
     Deed.MODE: (PANEL, SetMode(Mode.AUTO)),
     Deed.TAKE: (PERSON, Take()),
     Deed.LET_GO: (PERSON, LetGo()),
+    Deed.NUDGE: (PANEL, Nudge(EL, NUDGED_DEG)),
+    Deed.SPEED: (LINK, Speed(2)),
+    Deed.CHECKED: (PERSON, RelaysChecked(AZ)),
+    Deed.CLEAR: (LINK, ClearTimed()),
 }
 
 
 def in_state(new_desk: Any, state: State) -> Any:
-    desk = new_desk(counted=True, at=(150.0, 35.0), park=PARKED, park_after_s=12.0)
+    attended = state is State.CALIBRATING
+    missing = {AZ: (Missing.LIMITS,)} if attended else {}
+    desk = new_desk(counted=True, at=(150.0, 35.0), park=PARKED, park_after_s=12.0, missing=missing, attended=attended)
     desk.step()
     SET_UP[state](desk)
     desk.run(1.0)
@@ -162,19 +184,26 @@ def goes_on(desk: Any, seconds: float) -> list[Any]:
     return seen
 
 
+def shifted(seen: list[Any], by_deg: float) -> list[Any]:
+    """The same with each target of the elevation so much higher."""
+    return [
+        (driven, (azimuth_deg, None if elevation_deg is None else elevation_deg + by_deg), *homes)
+        for driven, (azimuth_deg, elevation_deg), *homes in seen
+    ]
+
+
 def did_its_own(desk: Any, deed: Deed, state: State) -> bool:
     """Whether the order itself took effect, beside what became of the rest."""
     status, errands = desk.status, desk.controller.errands
-    goes_to = (None, targets(desk)[1]) if state is State.FAULT else targets(desk)  # an axis with a fault stands
+    stands = state in (State.FAULT, State.CALIBRATING)  # then the azimuth has no target
+    goes_to = (None, targets(desk)[1]) if stands else targets(desk)
     match deed:
         case Deed.AIM:
-            return goes_to == (None if state is State.FAULT else AIMED.azimuth_deg, AIMED.elevation_deg)
+            return goes_to == (None if stands else AIMED.azimuth_deg, AIMED.elevation_deg)
         case Deed.JOG:
             return status.elevation.target_deg is None and desk.driven[EL] is MINUS
         case Deed.PARK | Deed.STORM:
-            return goes_to == (None if state is State.FAULT else PARKED[0], PARKED[1]) and bool(status.storm) == (
-                deed is Deed.STORM
-            )
+            return goes_to == (None if stands else PARKED[0], PARKED[1]) and bool(status.storm) == (deed is Deed.STORM)
         case Deed.S:
             return not status.faults
         case Deed.STOP:
@@ -189,6 +218,14 @@ def did_its_own(desk: Any, deed: Deed, state: State) -> bool:
             return status.mode is Mode.AUTO
         case Deed.TAKE:
             return str(status.held_by) == str(PERSON)
+        case Deed.NUDGE:
+            return True  # the target shows it: `shifted`
+        case Deed.SPEED:
+            return bool(status.speed_level == 2)
+        case Deed.CHECKED:
+            return bool(status.azimuth.trusts == (Trust.OPEN, Trust.OPEN))
+        case Deed.CLEAR:
+            return bool(status.timed_points == 0)
         case Deed.LET_GO:
             return LetGo() in errands and bool(status.latched)
 
@@ -222,7 +259,8 @@ def test_each_cell(new_desk: Any, state: State, deed: Deed) -> None:
             assert any(str(source) in notice for notice in desk.status.notices), "and it is said"
         case Effect.BESIDE:
             assert own
-            assert goes_on(desk, 3.0) == goes_on(twin, 3.0)
+            by_deg = NUDGED_DEG if deed is Deed.NUDGE and state in HAVE_TARGETS else 0.0
+            assert goes_on(desk, 3.0) == shifted(goes_on(twin, 3.0), by_deg)
         case Effect.STOPS:
             assert own
             desk.run(1.0)
@@ -236,6 +274,16 @@ def test_each_cell(new_desk: Any, state: State, deed: Deed) -> None:
             assert did_its_own(desk, deed, state), "and it stays so"
 
 
+@pytest.mark.parametrize("state", State, ids=lambda state: state.name)
+def test_a_nudge_is_kept_for_the_orders_to_come(new_desk: Any, state: State) -> None:
+    """Whatever holds the antenna back now; the mode switch alone forgets it."""
+    desk = in_state(new_desk, state)
+    desk.step(Nudge(EL, NUDGED_DEG), Stop(latch=True), Release(), by=PANEL)
+    desk.step(SetMode(Mode.AUTO), Nudge(EL, NUDGED_DEG), by=PANEL) if desk.status.mode is not Mode.AUTO else None
+    desk.step(Aim(70.0, 40.0), by=CONSOLE)
+    assert targets(desk)[1] == 40.0 + NUDGED_DEG
+
+
 def test_every_state_and_order_has_its_cell() -> None:
     assert set(TABLE) == set(State) == set(SET_UP)
     assert set(ORDERS) == set(Deed)
@@ -245,12 +293,15 @@ def test_every_state_and_order_has_its_cell() -> None:
 # --- a calibration over a link: after it every angle means another place
 
 
-HOLDING = [State.SILENCED, State.HELD, State.STORM, State.STOPPED, State.AT_PARK, State.AT_MANUAL, State.AT_JOG]
+HOLDING = [
+    *(State.SILENCED, State.HELD, State.CALIBRATING, State.STORM),
+    *(State.STOPPED, State.AT_PARK, State.AT_MANUAL, State.AT_JOG),
+]
 
 
 @pytest.mark.parametrize("state", HOLDING, ids=lambda state: state.name)
 def test_what_holds_the_antenna_back_from_a_link_holds_its_calibration_too(new_desk: Any, state: State) -> None:
-    desk = new_desk(at=(5.0, 35.0), park=PARKED)
+    desk = new_desk(at=(5.0, 35.0), park=PARKED, attended=state is State.CALIBRATING)
     desk.step()
     SET_UP[state](desk)
     desk.step(Stop(), by=OTHER)
