@@ -14,6 +14,7 @@ from hw.ports import Axis, Direction
 from rotator.control.commands import Place
 from rotator.control.rights import TABLE, Deed, Effect, State
 from rotator.exchange.faults import Missing
+from rotator.exchange.motor import Trust
 from rotator.exchange.orders import (
     Aim,
     Calibrate,
@@ -36,7 +37,6 @@ from rotator.exchange.orders import (
     Take,
 )
 from rotator.exchange.sources import Source
-from rotator.exchange.status import Trust
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
