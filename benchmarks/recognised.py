@@ -6,7 +6,7 @@ degrees from a program whose clock is up to 5 s off, and as the same stream to a
 stream begins as the program sees the satellite rise. Errors are those to the true satellite; those of the last flight
 are to the stream itself. `--flip`: a rotor of 360° that goes over the top; `--single`: one of 360° that does not.
 `--early S`: the program sends so long before the rise, with elevation 0. `--turning`: only passes that the rotor has to
-unwind for, from where it stands as they begin.
+unwind for, from where it stands as they begin. `--anywhere`: the antenna does not stand where the stream begins.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ from rotator.orbits.elements import Elements
 from rotator.orbits.passes import passes
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.flight import fly
 from rotator.rehearsal.overhearing import Told
 from rotator.rehearsal.passes import Pass
-from rotator.rehearsal.plants import Plant
+from rotator.rehearsal.plants import BoxPlant, Plant
 from rotator.rehearsal.summary import SAMPLE_S, Summary
 
 PASSES, SATELLITES = 40, 30
@@ -64,6 +64,8 @@ class Job:
     los_s: float
     ahead_s: float
     early_s: float
+    stands_deg: float | None
+    """The antenna's azimuth at the beginning; None: where the stream begins."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,11 +141,12 @@ def flights(job: Job) -> Flights:
     config: Config = parse(job.config, "benchmark")
     flown = flown_pass(job)
     begin_utc_s = job.aos_s - job.early_s - job.ahead_s
-    makers = (
-        plant_maker(config, via="track"),
-        plant_maker(config, utc_s=begin_utc_s),
-        plant_maker(config),
-    )
+    stands_deg = (flown.rows[0][1] if job.stands_deg is None else job.stands_deg), 0.0
+
+    def maker(via: str = "gs232", utc_s: float | None = None) -> Callable[[SimClock, Pass], Plant]:
+        return lambda clock, _flown: BoxPlant(config, clock, stands_deg, via, utc_s=utc_s)
+
+    makers = maker("track"), maker(utc_s=begin_utc_s), maker()
     return Flights(job, *(_flight(flown, make) for make in makers))
 
 
@@ -157,13 +160,15 @@ def unwinds(job: Job) -> bool:
     """Whether the rotor turns right round in this pass, if it stands where the pass begins."""
     config = parse(job.config, "benchmark")
     path = KnownPath(flown_pass(job).rows)
-    stands_deg = path.rows[0][1], 0.0
+    stands_deg = (path.rows[0][1] if job.stands_deg is None else job.stands_deg), 0.0
     speeds = Speeds(*(motor.speed_dps for motor in planned_motors(config)))
     route = best_route(build_mount(config), path.directions(path.begin_s, STEP_S), stands_deg, 0.0, speeds)
     return route.lost_s > TURNING_S
 
 
-def jobs(count: int, seed: int, extra: str, early_s: float, folder: Path, *, turning: bool = False) -> list[Job]:
+def jobs(
+    count: int, seed: int, extra: str, early_s: float, folder: Path, *, turning: bool = False, anywhere: bool = False
+) -> list[Job]:
     dice = random.Random(seed)
     found: list[Job] = []
     elements = catalogue(dice, SATELLITES)
@@ -184,7 +189,9 @@ def jobs(count: int, seed: int, extra: str, early_s: float, folder: Path, *, tur
             f"altitude_m = {site.altitude_m}\n[sky]\nelements = ['{file}']\n{extra}"
         )
         ahead_s = dice.uniform(-CLOCK_S, CLOCK_S)
-        job = Job(each.name, config, each, site, one.aos_s, one.los_s, ahead_s, early_s)
+        limits = build_mount(parse(config, "benchmark")).azimuth
+        stands_deg = dice.uniform(limits.min_deg, limits.max_deg) if anywhere else None
+        job = Job(each.name, config, each, site, one.aos_s, one.los_s, ahead_s, early_s, stands_deg)
         if not turning or unwinds(job):
             found.append(job)
     return found
@@ -209,11 +216,13 @@ def main() -> None:
     parser.add_argument("--flip", dest="rotor", action="store_const", const=FLIP, default="")
     parser.add_argument("--single", dest="rotor", action="store_const", const=SINGLE)
     parser.add_argument("--turning", action="store_true")
+    parser.add_argument("--anywhere", action="store_true")
     parser.add_argument("--early", type=float, default=0.0)
     parser.add_argument("--each", action="store_true", help="print every pass")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, ProcessPoolExecutor() as pool:
-        wanted = jobs(asked.passes, asked.seed, asked.rotor, asked.early, Path(folder), turning=asked.turning)
+        kinds = {"turning": asked.turning, "anywhere": asked.anywhere}
+        wanted = jobs(asked.passes, asked.seed, asked.rotor, asked.early, Path(folder), **kinds)
         done = []
         for each in pool.map(flights, wanted):
             done.append(each)

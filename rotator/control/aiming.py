@@ -12,7 +12,7 @@ from dataclasses import replace
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.flight import Flight
-from rotator.control.following import Following
+from rotator.control.following import QUIET_S, Following
 from rotator.control.going_round import GoingRound
 from rotator.control.sky.angles import Coordinates
 from rotator.control.sky.goal import AimGoal, Goals
@@ -22,7 +22,7 @@ from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.route import Speeds
 from rotator.exchange.faults import Notice
-from rotator.exchange.flight_order import Fly
+from rotator.exchange.flight_order import Fly, TakeTurn
 from rotator.exchange.orders import BOTH, Aim
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Flown
@@ -113,6 +113,16 @@ class Aiming:
             return False
         self._flight = Flight(order, self._mount, following)
         self._fly_on(now_s)
+        return True
+
+    def take_turn(self, order: TakeTurn, now_s: float) -> bool:
+        """Follow the stream on this turn, where its latest order is in force as it came. Returns whether."""
+        asked = self._asked
+        if self._flight is not None or asked is None or asked.place or self._nudges.applied(asked) != asked:
+            return False
+        if now_s - self._asked_s > QUIET_S or (goals := self._pointing.take_turn(now_s, order)) is None:
+            return False
+        self._set_goals(goals)
         return True
 
     def flies_on(self, source: Source, aim: Aim, now_s: float) -> bool:

@@ -26,7 +26,7 @@ from rotator.control.seen_turning import SeenTurning
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
 from rotator.exchange.faults import Notice
-from rotator.exchange.flight_order import Fly, Stream
+from rotator.exchange.flight_order import Fly, Stream, TakeTurn
 from rotator.exchange.orders import (
     BOTH,
     Calibrate,
@@ -199,6 +199,9 @@ class Controller:
                 self._remarks[axis] = (Notice(text, lcd),) if text else ()
             case RelaysChecked(axis):
                 self._axes[axis].checked()
+            case TakeTurn():
+                if self._authority.controlled_by == source:
+                    self._movements.take_turn(order, now_s)
             case Nudge(axis, offset_deg):
                 self._movements.nudge(axis, offset_deg, now_s, at_once=not self._authority.latched)
             case Fly(stream=Stream()):

@@ -19,7 +19,7 @@ from rotator.control.settings import Settings
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
 from rotator.exchange.faults import Notice
-from rotator.exchange.flight_order import Fly
+from rotator.exchange.flight_order import Fly, TakeTurn
 from rotator.exchange.orders import BOTH, Aim, Home, Jog, LoadTimed, Order, Park, RunTimed
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Flown
@@ -89,6 +89,11 @@ class Movements:
                 self.timed.run(now_s)
                 moved = ()
         if self.timed.running or self._homing.active or any(self._axes[axis].busy for axis in moved):
+            self._idle.ordered(now_s)
+
+    def take_turn(self, order: TakeTurn, now_s: float) -> None:
+        """Follow the stream on this turn from now on; ignored where it has ended meanwhile."""
+        if not self.timed.running and not self.faulted and self._aiming.take_turn(order, now_s):
             self._idle.ordered(now_s)
 
     def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:

@@ -42,6 +42,21 @@ class Stream:
 
 
 @dataclass(frozen=True, slots=True)
+class TakeTurn:
+    """Follow the sender's stream on this turn, which the pass needs for whose rise it waits at the horizon.
+
+    Ignored where the latest order is another sender's, or is not near this place.
+    """
+
+    azimuth_deg: float
+    """On the axis's own scale."""
+    flipped: bool
+    """Over the top."""
+    until_s: float
+    """The stream stays on it until then, on the control loop's clock."""
+
+
+@dataclass(frozen=True, slots=True)
 class Fly:
     """Fly a pass that is known to its end, as planned. Times are on the control loop's clock."""
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Axis, Direction
-from rotator.exchange.flight_order import Fly
+from rotator.exchange.flight_order import Fly, TakeTurn
 
 BOTH = (Axis.AZIMUTH, Axis.ELEVATION)
 
@@ -192,4 +192,4 @@ Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark | T
 Pointing = Aim | Fly | LoadTimed | RunTimed | Park
 """Orders that point the antenna somewhere."""
 
-Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave | Personal
+Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave | TakeTurn | Personal

@@ -11,9 +11,10 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Collection, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
-from rotator.exchange.flight_order import Fly, Stream
+from rotator.exchange.flight_order import Fly, Stream, TakeTurn
 from rotator.exchange.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Speed
 from rotator.exchange.program_clock import ProgramClock
 from rotator.exchange.sources import Source
@@ -27,6 +28,7 @@ from rotator.orbits.chance import (
     rise_chance,
     rising_line_chance,
 )
+from rotator.orbits.rising import LOWEST_DEG, Rising, Soon, soon_rising, waits_for
 from rotator.orbits.sight import NotThere, Sight, Target
 from rotator.orbits.stream_fit import (
     CLOCKS_S,
@@ -105,6 +107,11 @@ class StreamWatch:
         listener = self._listeners.get(source)
         return listener.recognised if listener else None
 
+    def rising(self, source: Source) -> Rising | None:
+        """The satellite for whose rise the orders of this source seem to wait. It is not recognised yet."""
+        listener = self._listeners.get(source)
+        return listener.rising if listener else None
+
     def hear(self, source: Source, order: Order, utc_s: float) -> Recognised | Departed | None:
         """An order came at this time, in seconds since 1970. Returns a new recognition or its end; None: no change."""
         match order:
@@ -124,7 +131,7 @@ class StreamWatch:
                 if isinstance(news, Recognised):
                     self.used(news.satellite.name)
                 return news
-            case Speed() | ClearTimed() | Calibrate() | Release() | Remark() | Fly(stream=Stream()):
+            case Speed() | ClearTimed() | Calibrate() | Release() | Remark() | TakeTurn() | Fly(stream=Stream()):
                 return None
             case _:  # it ends the stream
                 if isinstance(order, Leave):
@@ -157,7 +164,10 @@ class _Listener:
         """Earliest time of the next fit."""
         self._followed: SampledPath | None = None
         self._clock: ProgramClock | None = None
+        self._soon: list[Soon] = []
         self.recognised: Recognised | None = None
+        self.rising: Rising | None = None
+        """The satellite for whose rise the orders seem to wait."""
 
     @property
     def last_s(self) -> float:
@@ -176,6 +186,7 @@ class _Listener:
             return self._departed(order)
         self._likely = likely
         self._sieve(order, satellites)
+        self.rising = self._waits_for()
         enough = _are_enough(self._orders) if self._all_kept else len(self._orders) == KEPT
         if not enough or not self._near or order.utc_s < self._next_s:
             return None
@@ -196,13 +207,22 @@ class _Listener:
             return
         self._sieved_s = order.utc_s
         known = {path.satellite: path for path in self._near}
-        sights = [(each, sight) for each in satellites if (sight := _up(each, order.utc_s)) is not None]
-        near = [each for each, sight in sights if sight.apart_deg(order.direction) <= SIEVE_DEG]
+        seen = [(each, sight) for each in satellites if (sight := _sight(each, order.utc_s)) is not None]
+        # Further below the horizon it does not matter before the next sieving.
+        up = [(each, sight) for each, sight in seen if sight.elevation_deg > -FASTEST_DPS]
+        near = [each for each, sight in up if sight.apart_deg(order.direction) <= SIEVE_DEG]
+        with suppress(NotThere):
+            self._soon = soon_rising(order, seen) if order.elevation_deg == 0 else []
         self._near = [known.get(each) or SampledPath(each) for each in near]
         likely = sum(each.name in self._likely for each in satellites)
-        self._known = Known(len(satellites), likely, len(sights))
+        self._known = Known(len(satellites), likely, len(up))
         for path in self._near:
             path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
+
+    def _waits_for(self) -> Rising | None:
+        with suppress(NotThere):
+            return waits_for(self._orders, self._soon, self._known, self._likely)
+        return None
 
     def _recognise(self) -> Recognised | None:
         orders = list(self._orders)
@@ -255,13 +275,13 @@ def _are_enough(orders: Sequence[Heard]) -> bool:
     )
 
 
-def _up(satellite: Target, utc_s: float) -> Sight | None:
-    """Its direction. None: too far below the horizon to matter before the next sieving."""
+def _sight(satellite: Target, utc_s: float) -> Sight | None:
+    """Its direction. None: it is not up, and does not rise soon."""
     try:
         sight = satellite.sight(utc_s)
     except NotThere:
         return None
-    return sight if sight.elevation_deg > -FASTEST_DPS else None
+    return sight if sight.elevation_deg > LOWEST_DEG else None
 
 
 def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:

@@ -16,7 +16,7 @@ from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
 from rotator.tracking.tracker import CLOCK_UNSURE
-from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
+from tests.tracking.tracked_box import BERLIN, ELEMENTS, FEBRUARY_S, Box, pass_of
 
 
 @pytest.fixture
@@ -312,3 +312,28 @@ def test_while_the_clock_may_be_wrong_no_satellite_is_flown(up: Box) -> None:
     up.clock_trusted = True
     sends(up, 3)
     assert up.loop.status.recognised.startswith("ISS")
+
+
+AT_THE_EQUATOR = Site(0.0, 13.0)
+
+
+def test_before_a_rise_the_antenna_takes_the_turn_that_the_whole_pass_needs() -> None:
+    """SO-50 rises at 8° and sets at 127°: an antenna that comes from 320° would follow it on the upper turn, which
+    ends at 90°."""
+    satellite = find("so-50", AT_THE_EQUATOR, Catalogue((str(ELEMENTS),)))
+    aos_s = FEBRUARY_S + 112_356.0
+    box = Box(aos_s - 160.0, AT_THE_EQUATOR)
+    box.loop.post(PC, Aim(320.0, 0.0))
+    box.wait(60.0)
+    assert box.world.antenna()[0] == pytest.approx(320.0, abs=5.0)
+    turned_deg = []
+    for _ in range(110):
+        sight = satellite.sight(box.utc_s + 3.0)
+        box.loop.post(PC, Aim(round(sight.azimuth_deg) % 360.0, max(0.0, round(sight.elevation_deg))))
+        box.wait(1.0)
+        turned_deg.append(box.world.antenna()[0])
+        if sight.elevation_deg < -1.0:
+            assert not box.loop.status.recognised
+    assert max(turned_deg) < 370.0, "it has not gone to the upper turn before"
+    assert turned_deg[-1] == pytest.approx(satellite.sight(box.utc_s).azimuth_deg, abs=5.0), "the lower turn"
+    assert box.loop.status.recognised == "SO-50"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG, great_circle_deg
 from rotator.control.sky.goal import EVEN, AimGoal, Goals
 from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import Mount, Unreachable
@@ -16,6 +16,7 @@ from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
 from rotator.control.sky.track import Track
 from rotator.control.sky.turns import Swings
+from rotator.exchange.flight_order import TakeTurn
 from rotator.exchange.orders import Aim
 
 PLAN_EVERY_S = 0.5
@@ -27,6 +28,8 @@ LEAST_WEIGHT = 0.1
 """Near the zenith azimuth hardly matters, but an antenna that a person sends there shall turn all the same."""
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
+LEVEL_DEG, LEAVES_DEG = 1.0, 10.0
+"""A stream that waits at the horizon for a rise is no higher, and its next order is no further away."""
 
 
 class Pointing:
@@ -44,6 +47,8 @@ class Pointing:
         self._way: Way | None = None
         self._planned_s: float | None = None
         self._routed_s: float | None = None
+        self._led_until_s = -math.inf
+        """Until then a stream at the horizon stays on the turn that the pass needs for whose rise it waits."""
         self.wanted = Aim(None, None)
         """The direction last ordered, as ordered: the display's SAT."""
 
@@ -51,6 +56,7 @@ class Pointing:
         """Forget the order on these axes."""
         self._track.clear()
         self._way = None
+        self._led_until_s = -math.inf
         kept = self.wanted
         self.wanted = Aim(None if azimuth else kept.azimuth_deg, None if elevation else kept.elevation_deg)
 
@@ -64,6 +70,19 @@ class Pointing:
         assert aim.elevation_deg is not None
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
         self._way = way
+
+    def take_turn(self, now_s: float, order: TakeTurn) -> Goals | None:
+        """Goals for the order in force on this turn; None: it does not stand for the horizon near that place."""
+        wanted = self.wanted
+        if self._way is None or wanted.azimuth_deg is None or wanted.elevation_deg is None:
+            return None
+        there_deg, _ = self._mount.on_the_way(
+            *direction(wanted.azimuth_deg, wanted.elevation_deg), order.azimuth_deg, flipped=order.flipped
+        )
+        if wanted.elevation_deg > LEVEL_DEG or abs(there_deg - order.azimuth_deg) > WAVERS_DEG:
+            return None
+        self._way, self._led_until_s, self._planned_s = Way(there_deg, order.flipped), order.until_s, None
+        return self._standing(now_s, settled=False)
 
     def show(self, aim: Aim) -> None:
         """Show a direction without following it."""
@@ -108,7 +127,9 @@ class Pointing:
             self._track.clear()
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
         moving = self._track.moving(now_s)
-        if self._way is not None and moving:
+        if self._led_until_s > now_s and _leaves(before, aim):
+            self._led_until_s = -math.inf
+        if self._way is not None and (moving or self._led_until_s > now_s):
             # The antenna stays on its way, wherever it is now.
             flown_deg, _ = self._mount.on_the_way(
                 *direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
@@ -170,7 +191,7 @@ class Pointing:
 
     def _choose_way(self, now_s: float, speeds: Speeds) -> None:
         assert self._way is not None
-        if self._track.age_s(now_s) < SURE_AFTER_S:
+        if self._track.age_s(now_s) < SURE_AFTER_S or self._led_until_s > now_s:
             return
         if self._routed_s is not None and now_s - self._routed_s < ROUTE_EVERY_S:
             return
@@ -215,6 +236,7 @@ class Pointing:
         assert self._way is not None
         assert wanted.azimuth_deg is not None
         near_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
+        settled = settled and self._led_until_s <= now_s
         if settled and near_deg != self._way.azimuth_deg and self._swings.may_begin(now_s):
             axis_deg, raised_deg = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
             flipped = self._way.flipped if raised_deg is None else self._mount.model.over_the_top(raised_deg)
@@ -238,3 +260,11 @@ class Pointing:
             return self._azimuth_tolerance_deg
         weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
         return self._azimuth_tolerance_deg / weight
+
+
+def _leaves(before: Aim, aim: Aim) -> bool:
+    """Whether the order is for another target than the one before."""
+    if before.azimuth_deg is None or aim.azimuth_deg is None:
+        return True
+    ends = (before.azimuth_deg, before.elevation_deg or 0.0), (aim.azimuth_deg, aim.elevation_deg or 0.0)
+    return great_circle_deg(*ends[0], *ends[1]) > LEAVES_DEG
