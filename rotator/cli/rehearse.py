@@ -28,6 +28,8 @@ from rotator.cli.utc import day_and_time
 from rotator.config.axes import AxisTable
 from rotator.config.load import load
 from rotator.config.model import Config
+from rotator.control.sky.mount import Mount
+from rotator.control.sky.named_turns import axis_rows, smooth_turns
 from rotator.protocols.table_text import FORM
 from rotator.rehearsal.flight import fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
@@ -77,6 +79,7 @@ def rehearse_pass(
             click.echo(_begins(flown, tracked.begin_utc_s), err=True)
         else:
             flown = find_pass(word or shipped_names()[0])
+            _make_sure_of_turns(flown, build_mount(config))
     except PassError as fault:
         raise CommandFailed(str(fault)) from None
     outputs = {option: file for option, file in (("--trace", trace), ("--svg", svg)) if file is not None}
@@ -108,6 +111,12 @@ def rehearse_pass(
     click.echo(json.dumps(summary.as_dict()) if as_json else _sentence(flown, summary, arduino=arduino))
     if summary.faults:
         raise CommandFailed("\n         ".join(("at the end of the pass:", *summary.faults)), FAULTY)
+
+
+def _make_sure_of_turns(flown: Pass, mount: Mount) -> None:
+    """That the rotor can be where the pass names it. Raises PassError."""
+    if flown.turns and isinstance(fault := axis_rows(flown.table, smooth_turns(flown.rows), mount), str):
+        raise PassError(f"{flown.name}, {fault}")
 
 
 def _begins(flown: Pass, begin_utc_s: float) -> str:

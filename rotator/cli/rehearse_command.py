@@ -58,7 +58,8 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     NAME of the list that `rotator rehearse` prints, or a file.
 
     The first line of such a file is t,az,el. Each further line is a moment in seconds, and the satellite's azimuth and
-    elevation in degrees, with decimal points: 12.5,274.6,8.1. Your tracking program can export them.
+    elevation in degrees, with decimal points: 12.5,274.6,8.1. Your tracking program can export them. With an azimuth
+    above 360 or an elevation above 90 the file names the rotor's turns.
 
     The time is simulated: ten minutes take some seconds. So is the rotor, also where
     the file of --config names a real one.

@@ -1,6 +1,7 @@
 """A satellite pass from a CSV file with the columns `t,az,el`, in seconds and degrees; rows at any interval.
 
-Knows the passes that come with the program, and how to interpolate between rows. Does not know the rotor.
+Knows the passes that come with the program, and how to interpolate between rows. A table with an azimuth above 360 or
+an elevation above 90 names its turns, as a program does that plans by itself. Does not know the rotor.
 """
 
 from __future__ import annotations
@@ -11,6 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.known_path import Row
+from rotator.control.sky.named_turns import names_turns, on_the_sky
+from rotator.control.sky.timed_table import TimedTable
 from rotator.protocols.table_text import FORM, TableError, read_table
 from rotator.store.plain import NoPlainFileError, read_plain
 
@@ -28,23 +32,41 @@ class Pass:
     """Two or more rows (t_s, azimuth_deg, elevation_deg). The first time is 0, and times rise."""
 
     name: str
-    rows: tuple[tuple[float, float, float], ...]
+    rows: tuple[Row, ...]
+    lines: tuple[int, ...] = ()
+    """The line of each row in its file."""
+    turns: bool = False
+    """Whether the rows name the turns: their angles are then those of the rotor's axes."""
+
+    @property
+    def table(self) -> TimedTable:
+        return TimedTable(self.name, self.rows, self.lines)
 
     @property
     def highest_deg(self) -> float:
         """The elevation at its culmination."""
-        return max(elevation_deg for _, _, elevation_deg in self.rows)
+        return max(self.at(t_s)[1] for t_s, _, _ in self.rows)
 
     @property
     def end_s(self) -> float:
         return self.rows[-1][0]
 
     def at(self, t_s: float) -> tuple[float, float]:
-        """Azimuth (0 to 360) and elevation in degrees at this time. Between rows azimuth takes the shorter way."""
+        """The direction on the sky, azimuth 0 to 360, elevation to 90. Between rows azimuth takes the shorter way."""
+        azimuth_deg, elevation_deg = self.sent_at(t_s)
+        if self.turns:
+            _, azimuth_deg, elevation_deg = on_the_sky((t_s, azimuth_deg, elevation_deg))
+        return azimuth_deg, elevation_deg
+
+    def sent_at(self, t_s: float) -> tuple[float, float]:
+        """The same as a program sends it: where the rows name the turns, their angles as they stand."""
         after = min(max(bisect_right(self.rows, t_s, key=lambda row: row[0]), 1), len(self.rows) - 1)
         (t_a, az_a, el_a), (t_b, az_b, el_b) = self.rows[after - 1], self.rows[after]
         share = min(max((t_s - t_a) / (t_b - t_a), 0.0), 1.0)
-        return (az_a + share * turn_deg(az_a, az_b)) % 360.0, el_a + share * (el_b - el_a)
+        elevation_deg = el_a + share * (el_b - el_a)
+        if self.turns:
+            return az_a + share * (az_b - az_a), elevation_deg
+        return (az_a + share * turn_deg(az_a, az_b)) % 360.0, elevation_deg
 
 
 def shipped_names() -> list[str]:
@@ -67,11 +89,12 @@ def find_pass(word: str) -> Pass:
 def read_pass(path: Path) -> Pass:
     """The pass in a file, with its first time set to 0. Raises PassError."""
     try:
-        rows = read_table(_text(path), path.stem, str(path)).rows
+        table = read_table(_text(path), path.stem, str(path), turns=True)
     except TableError as fault:
         raise PassError(str(fault)) from None
-    start_s = rows[0][0]
-    return Pass(path.stem, tuple((t - start_s, az, el) for t, az, el in rows))
+    start_s = table.rows[0][0]
+    rows = tuple((t - start_s, az, el) for t, az, el in table.rows)
+    return Pass(path.stem, rows, table.lines, names_turns(rows))
 
 
 def _text(path: Path) -> str:

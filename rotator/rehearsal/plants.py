@@ -35,6 +35,7 @@ from rotator.rehearsal.sky_target import SkyTarget
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.next_flight import Now
+from rotator.tracking.program import Program, program_flight
 
 KNOWN_S = 120.0
 """Time before its beginning at which the box knows a pass that it tracks by itself."""
@@ -142,6 +143,11 @@ class BoxPlant:
             apart_s = self._target.begin_utc_s - begin_s
             self._clock.every(1.0, lambda now_s: tracker.step(Now(now_s + apart_s, now_s)))
             return
+        if flown.turns:
+            now_s = self._clock()
+            program = Program(flown.table, begin_s)
+            self._loop.post(Source("track"), program_flight(program, self._antenna(), Now(now_s, now_s)).order)
+            return
         path = KnownPath(tuple((begin_s + t_s, az_deg, el_deg) for t_s, az_deg, el_deg in flown.rows))
         plan = plan_flight(flown.name, path, self._antenna(), self._clock())
         self._loop.post(Source("track"), plan.order)
@@ -220,8 +226,9 @@ def _order_each_second(order: Callable[[float, float], None], flown: Pass, clock
     """Send the target's direction each second from now on, as a tracking program does: no elevation below zero."""
 
     def send(now_s: float) -> None:
-        azimuth_deg, elevation_deg = flown.at(now_s - begin_s)
-        order(azimuth_deg, max(0.0, elevation_deg))
+        azimuth_deg, elevation_deg = flown.sent_at(now_s - begin_s)
+        # An azimuth below zero has no form in GS-232.
+        order(azimuth_deg if azimuth_deg >= 0 else azimuth_deg % 360.0, max(0.0, elevation_deg))
 
     clock.every(1.0, send)
 

@@ -247,6 +247,44 @@ def test_a_fault_strikes(rotator: Rotator, flown: Path, plain: tuple[Figures, by
     assert done.stderr.endswith(f"rotator: at the end of the pass:\n         {fault}\n")
 
 
+# --- a table that names its turns
+
+
+ACROSS_NORTH = [(t, 340.0 + t / 2, 20.0) for t in range(0, 121, 10)]
+OVER_THE_TOP = [(t, 40.0, 50.0 + t / 2) for t in range(0, 121, 10)]
+
+
+def turns(folder: Path, rows: list[tuple[float, float, float]]) -> Path:
+    path = folder / "turns.csv"
+    path.write_text("t,az,el\n" + "".join(f"{t},{az},{el}\n" for t, az, el in rows))
+    return path
+
+
+@pytest.mark.parametrize("via", ["gs232", "rotctld", "track"])
+@pytest.mark.parametrize("rows", [ACROSS_NORTH, OVER_THE_TOP], ids=["across north", "over the top"])
+def test_a_table_that_names_its_turn_is_flown_on_it(
+    rotator_here: Rotator, tmp_path: Path, via: str, rows: list[tuple[float, float, float]]
+) -> None:
+    trace = tmp_path / "trace.csv"
+    done = figures(rotator_here("rehearse", turns(tmp_path, rows), "--via", via, "--json", "--trace", trace))
+    assert done["p95_deg"] < 5.0
+    flown = [[float(each) for each in row] for row in list(csv.reader(trace.open()))[1:]]
+    assert max(row[1] for row in flown) <= 360.0, "the target is on the sky"
+    assert max(row[2] for row in flown) <= 90.0
+    assert flown[-1][3:5] == pytest.approx(rows[-1][1:], abs=6.0), "the antenna is on the turn that is named"
+
+
+@pytest.mark.parametrize("beyond", [90.0, 100.0, 260.0])
+def test_a_turn_that_the_rotor_does_not_have_is_refused_before_the_flight(
+    rotator_here: Rotator, tmp_path: Path, beyond: float
+) -> None:
+    rows = [(t, azimuth_deg + beyond, elevation_deg) for t, azimuth_deg, elevation_deg in ACROSS_NORTH]
+    done = rotator_here("rehearse", turns(tmp_path, rows), "--json")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert re.search(r"turns, line \d+: azimuth 4[5-9]\d\.\d°|azimuth [56]\d\d", done.stderr)
+    assert "outside the rotor's azimuth range of 0° to 450°, on the turn that the table names" in done.stderr
+
+
 # --- what is refused
 
 
