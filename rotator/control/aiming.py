@@ -117,10 +117,12 @@ class Aiming:
 
     def take_turn(self, order: TakeTurn, now_s: float) -> bool:
         """Follow the stream on this turn, where its latest order is in force as it came. Returns whether."""
-        asked = self._asked
-        if self._flight is not None or asked is None or asked.place or self._nudges.applied(asked) != asked:
+        if self._flight is not None or self._asked is None:
             return False
-        if now_s - self._asked_s > QUIET_S or (goals := self._pointing.take_turn(now_s, order)) is None:
+        asked, asked_s = self._asked
+        if asked.place or self._nudges.applied(asked) != asked or now_s - asked_s > QUIET_S:
+            return False
+        if (goals := self._pointing.take_turn(now_s, order)) is None:
             return False
         self._set_goals(goals)
         return True

@@ -29,6 +29,7 @@ Rotator = Callable[..., Any]
 
 
 Figures = dict[str, Any]
+Rows = list[tuple[float, float, float]]
 
 
 def through_the_south(folder: Path) -> Path:
@@ -250,11 +251,11 @@ def test_a_fault_strikes(rotator: Rotator, flown: Path, plain: tuple[Figures, by
 # --- a table that names its turns
 
 
-ACROSS_NORTH = [(t, 340.0 + t / 2, 20.0) for t in range(0, 121, 10)]
-OVER_THE_TOP = [(t, 40.0, 50.0 + t / 2) for t in range(0, 121, 10)]
+ACROSS_NORTH: Rows = [(t, 340.0 + t / 2, 20.0) for t in range(0, 121, 10)]
+OVER_THE_TOP: Rows = [(t, 40.0, 50.0 + t / 2) for t in range(0, 121, 10)]
 
 
-def turns(folder: Path, rows: list[tuple[float, float, float]]) -> Path:
+def turns(folder: Path, rows: Rows) -> Path:
     path = folder / "turns.csv"
     path.write_text("t,az,el\n" + "".join(f"{t},{az},{el}\n" for t, az, el in rows))
     return path
@@ -263,7 +264,7 @@ def turns(folder: Path, rows: list[tuple[float, float, float]]) -> Path:
 @pytest.mark.parametrize("via", ["gs232", "rotctld", "track"])
 @pytest.mark.parametrize("rows", [ACROSS_NORTH, OVER_THE_TOP], ids=["across north", "over the top"])
 def test_a_table_that_names_its_turn_is_flown_on_it(
-    rotator_here: Rotator, tmp_path: Path, via: str, rows: list[tuple[float, float, float]]
+    rotator_here: Rotator, tmp_path: Path, via: str, rows: Rows
 ) -> None:
     trace = tmp_path / "trace.csv"
     done = figures(rotator_here("rehearse", turns(tmp_path, rows), "--via", via, "--json", "--trace", trace))
