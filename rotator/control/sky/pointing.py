@@ -193,6 +193,8 @@ class Pointing:
         assert self._way is not None
         if self._track.age_s(now_s) < SURE_AFTER_S or self._led_until_s > now_s:
             return
+        if (self.wanted.azimuth_deg or 0.0) > FULL_TURN_DEG:  # the sender names the overlap
+            return
         if self._routed_s is not None and now_s - self._routed_s < ROUTE_EVERY_S:
             return
         self._routed_s = now_s
