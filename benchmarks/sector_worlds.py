@@ -21,6 +21,7 @@ from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
+from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.detour import Detours
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
@@ -201,7 +202,10 @@ class World:
         status = self.loop.status
         if not self._can_reach(began, place):
             return
-        self.outcome.missed.append(f"{place} from {began}: stands at {self.world.shafts()}, {status}")
+        notices = (notice.text for axis in (status.azimuth, status.elevation) for notice in axis.notices)
+        said = "; ".join([*map(str, status.faults), *status.notices, *notices])
+        (to, came_from, at) = (f"{az_deg:.1f} {el_deg:.1f}" for az_deg, el_deg in (place, began, self.world.shafts()))
+        self.outcome.missed.append(f"to {to} from {came_from}: stands at {at}; {said or 'the box says nothing'}")
 
     def _can_reach(self, began: Place, place: Place) -> bool:
         """Whether there is a way with much room to every sector, on any turn and with no flip."""
@@ -215,9 +219,8 @@ class World:
         )
 
     def off_deg(self, place: Place) -> float:
-        azimuth_deg, elevation_deg = self.world.antenna()
-        turn_deg = (azimuth_deg - place[0] + 180.0) % 360.0 - 180.0
-        return math.hypot(turn_deg * math.cos(math.radians(place[1])), elevation_deg - place[1])
+        """On the sky: over the top the antenna looks the same way as from the front."""
+        return great_circle_deg(*self.world.antenna(), *place)
 
     def _straight_s(self, a: Place, b: Place) -> float:
         each_s: list[float] = [
