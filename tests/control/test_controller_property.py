@@ -12,7 +12,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.goals import LONGEST_WAIT_S, UNCALIBRATED_JOG_S
 from rotator.control.commands import Place
 from rotator.exchange.faults import Missing
-from rotator.exchange.flight_order import AxisPlan, Fly, Step
+from rotator.exchange.flight_order import AxisPlan, Fly, Step, TakeTurn
 from rotator.exchange.orders import (
     Aim,
     Calibrate,
@@ -90,6 +90,7 @@ others = st.one_of(
     st.builds(RelaysChecked, axes),
     st.builds(Take),
     st.builds(GiveBack),
+    st.builds(TakeTurn, st.floats(-90, 540), st.booleans(), st.floats(0, 200)),
 )
 healthy = st.floats(0.02, 0.98)
 raws = healthy | st.sampled_from([None, 0.0, 0.019, 0.02, 0.05, 0.95, 0.98, 1.0, math.nan, math.inf, -math.inf])

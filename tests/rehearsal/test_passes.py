@@ -25,12 +25,20 @@ def path(tmp_path: Path) -> Path:
 
 def test_read(path: Path) -> None:
     path.write_text("t,az,el\n0,274.609,0.001\n1.5,274.638,-0.2\n")
-    assert read_pass(path) == Pass("iss", ((0.0, 274.609, 0.001), (1.5, 274.638, -0.2)))
+    assert read_pass(path) == Pass("iss", ((0.0, 274.609, 0.001), (1.5, 274.638, -0.2)), lines=(2, 3))
 
 
 def test_columns_in_any_order_and_more_of_them(path: Path) -> None:
     path.write_text("el,range_km,az,t\n5,1200,10,0\n6,1190,11,1\n")
     assert read_pass(path).rows == ((0.0, 10.0, 5.0), (1.0, 11.0, 6.0))
+
+
+def test_a_table_that_names_its_turn_keeps_its_angles(path: Path) -> None:
+    path.write_text("t,az,el\n0,358,89\n1,364,91\n")
+    flown = read_pass(path)
+    assert flown.turns
+    assert flown.sent_at(0.5) == (361.0, 90.0)
+    assert flown.at(1.0) == pytest.approx((184.0, 89.0)), "on the sky"
 
 
 def test_lines_as_windows_ends_them(path: Path) -> None:
@@ -139,8 +147,8 @@ POINTS = "commas stand between values, and decimals have a point: 12.5,274.6,8.1
         ("t,az,el\n0,10,5\n1,nan,6\n", ":3: az is 'nan': t, az and el must be numbers"),
         ("t,az,el\n0,10,5\ninf,11,6\n", ":3: t is 'inf': t, az and el must be numbers"),
         ("t,az,el\n0,10,5\n1_0,11,6\n", ":3: t is '1_0': t, az and el must be numbers"),
-        ("t,az,el\n0,10,5\n1,361,6\n", ":3: azimuth 361, elevation 6 is no direction"),
-        ("t,az,el\n0,10,91\n1,11,6\n", ":2: azimuth 10, elevation 91 is no direction"),
+        ("t,az,el\n0,0,5\n1,721,6\n", ":3: azimuth 721, elevation 6 is no direction"),
+        ("t,az,el\n0,10,181\n1,11,179\n", ":2: azimuth 10, elevation 181 is no direction"),
         ("t,az,el\n0,0,10\n600,180,10\n", f":3: is 160° {APART}"),
         ("t,az,el\n0,0,0\n300,40,0\n600,180,0\n", f":4: is 140° {APART}"),
         ("t,az,el\n0,10,5\n1e6,11,6\n", ": lasts 278 h; t is in seconds, and a day is the most"),

@@ -14,9 +14,10 @@ from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.exchange.motor import Trust, Trusts
 from rotator.exchange.orders import Aim, Jog, RelaysChecked, Stop
+from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
 from rotator.store.relays import after
-from tests.rotors.rig import KINDS, PERSON, Box, Kind
+from tests.rotors.rig import KINDS, LINK, PERSON, Box, Kind
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
@@ -49,10 +50,10 @@ def weld(box: Box, way: Direction) -> None:
     box.world.inject(f"azimuth-relay-welded-{'cw' if way > 0 else 'ccw'}")
 
 
-def order_back(box: Box, way: Direction) -> None:
+def order_back(box: Box, way: Direction, by: Source = LINK) -> None:
     """Acknowledged and ordered against the welded relay, again and again."""
     for _ in range(4):
-        box.order(Stop(), Jog(AZ, Direction(-way), 2.0))
+        box.order(Stop(), Jog(AZ, Direction(-way), 2.0), by=by)
         box.run(5.0)
     assert box.world.shorted_s == 0.0
 
@@ -160,10 +161,10 @@ def test_an_axis_that_is_not_calibrated(new_box: NewBox) -> None:
     box = new_box("g5500", 200.0)
     box.loop = ControlLoop(build_controller(box.config, commissioning=AZ), box.rotor, box.clock, box.period_s)
     box.run(1.0)
-    box.order(Jog(AZ, PLUS, 2.0))
+    box.order(Jog(AZ, PLUS, 2.0), by=PERSON)
     box.run(1.0)
     weld(box, PLUS)
-    order_back(box, PLUS)
+    order_back(box, PLUS, PERSON)
     assert [fault.name for fault in box.status.faults] == ["relay welded"]
 
 
