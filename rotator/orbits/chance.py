@@ -25,10 +25,13 @@ RISING_SOON_DEG, JUST_RISEN_DEG, RISE_BIAS_DEG = -0.1, 0.15, 0.1
 """Degrees: at the first order of a pass the satellite is between these elevations, and its azimuth this near."""
 SKY_SQUARE_DEG = 20_627.0
 """Square degrees of the sky above the horizon."""
-RATES_SQUARE_DPS = math.pi
-"""Square of the speeds: a target that is no satellite moves at up to 1°/s, in any direction."""
-LINE_CHANCE = 1e-5
-"""Allowed chance, for all satellites together, that a moving stream without a satellite is accepted."""
+LOW_DEG, LOW_SHARE = 15.0, 0.5
+"""Antennas without a satellite stand below this elevation in this share of the time."""
+FASTEST_DPS = 1.0
+"""A target that is no satellite moves at up to this speed, in any direction."""
+LINE_CHANCE, RISING_LINE_CHANCE = 3e-6, 1e-5
+"""Allowed chances, for all satellites together, that a moving stream without a satellite is accepted: anywhere in the
+sky, and where it begins as a satellite rises."""
 STANDING_CHANCE = 1.5e-4
 """The same for a stream that stands at the horizon from its beginning on."""
 LIKELY_SHARE, MOST_LIKELY = 0.9, 12
@@ -67,10 +70,16 @@ def has_told(path: SampledPath, orders: Sequence[Heard], rounding: float) -> boo
 
 
 def line_chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
-    """The probability that a line through the sky at random fits this satellite as well: in place, and in motion."""
+    """The probability that a line through the sky at random fits this satellite as well: in place, and in motion.
+
+    Each of its speeds is as likely: slow lines lie closer together than fast ones.
+    """
+    travelled_dps = _travelled_dps(path, orders)
     wide_deg = rounding + 2 * BIAS_DEG
-    long_deg = wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * _travelled_dps(path, orders)
-    return wide_deg * long_deg / SKY_SQUARE_DEG * _motion_chance(path, orders, rounding)
+    long_deg = wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * travelled_dps
+    loose_dps = _loose_dps(orders, travelled_dps, rounding)
+    motion = loose_dps**2 / (2 * math.pi * FASTEST_DPS * max(travelled_dps, loose_dps))
+    return wide_deg * long_deg * _lines_a_square_deg(orders) * min(1.0, motion)
 
 
 def rising_line_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
@@ -79,7 +88,8 @@ def rising_line_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Seq
     1: the orders do not begin as it rises. `orders`: those that tell something of it. Before them the program may have
     waited at the horizon for any time.
     """
-    return rise_chance(path, orders, clocks_s, rounding) * _motion_chance(path, orders, rounding)
+    loose_dps = _loose_dps(orders, _travelled_dps(path, orders), rounding)
+    return rise_chance(path, orders, clocks_s, rounding) * min(1.0, loose_dps**2 / (math.pi * FASTEST_DPS**2))
 
 
 def _travelled_dps(path: SampledPath, orders: Sequence[Heard]) -> float:
@@ -87,10 +97,17 @@ def _travelled_dps(path: SampledPath, orders: Sequence[Heard]) -> float:
     return path.sight(first_s).apart_deg(path.sight(last_s)) / (last_s - first_s)
 
 
-def _motion_chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
-    """The probability that a line at random has the course and the speed of this satellite."""
-    loose_deg = rounding + 2 * UNSTEADY_S * _travelled_dps(path, orders)
-    return min(1.0, (loose_deg / (orders[-1].utc_s - orders[0].utc_s)) ** 2 / RATES_SQUARE_DPS)
+def _loose_dps(orders: Sequence[Heard], travelled_dps: float, rounding: float) -> float:
+    """The orders leave this much of course and speed open."""
+    return (rounding + 2 * UNSTEADY_S * travelled_dps) / (orders[-1].utc_s - orders[0].utc_s)
+
+
+def _lines_a_square_deg(orders: Sequence[Heard]) -> float:
+    """The share of all lines at random that lie in a square degree of the sky about these orders."""
+    low = math.sin(math.radians(LOW_DEG))
+    if orders[-1].elevation_deg < LOW_DEG:
+        return LOW_SHARE / (low * SKY_SQUARE_DEG)
+    return (1.0 - LOW_SHARE) / ((1.0 - low) * SKY_SQUARE_DEG)
 
 
 def rise_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:

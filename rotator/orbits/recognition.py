@@ -21,6 +21,7 @@ from rotator.exchange.sources import Source
 from rotator.orbits.chance import (
     LINE_CHANCE,
     MOST_LIKELY,
+    RISING_LINE_CHANCE,
     Known,
     has_moved,
     has_told,
@@ -239,7 +240,7 @@ class _Listener:
             allowed = self._known.standing_chance(likely=path.satellite.name in self._likely)
             if rise_chance(path, orders, clocks_s, rounding) > allowed:
                 return None
-        elif not has_told(path, told, rounding) or self._line_chance(path, told, clocks_s, rounding) > LINE_CHANCE:
+        elif not has_told(path, told, rounding) or not self._is_no_chance(path, told, clocks_s, rounding):
             return None
         self._followed, self._clock = path, ProgramClock(clocks_s, rounding)
         self.recognised = Recognised(
@@ -247,13 +248,14 @@ class _Listener:
         )
         return self.recognised
 
-    def _line_chance(
+    def _is_no_chance(
         self, path: SampledPath, told: Sequence[Heard], clocks_s: Sequence[float], rounding: float
-    ) -> float:
-        """The chance for all satellites together: by the orders' places, or by place and time of their begin."""
-        return min(
-            self._known.up * line_chance(path, told, rounding),
-            self._known.all * rising_line_chance(path, told, clocks_s, rounding),
+    ) -> bool:
+        """Whether a line at random hardly fits one of all satellites: in the orders' places, or in place and time of
+        their begin."""
+        return (
+            self._known.up * line_chance(path, told, rounding) <= LINE_CHANCE
+            or self._known.all * rising_line_chance(path, told, clocks_s, rounding) <= RISING_LINE_CHANCE
         )
 
     def _departed(self, order: Heard) -> Departed | None:

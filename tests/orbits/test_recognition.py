@@ -71,7 +71,7 @@ def test_eight_orders_after_its_rise_it_is_recognised_and_stays_so_to_its_set(
 
 @pytest.mark.parametrize("name", SATELLITES)
 @pytest.mark.parametrize("rounds", [math.floor, lambda deg: whole(deg * 10) / 10, lambda deg: whole(deg * 100) / 100])
-def test_in_mid_pass_it_is_recognised_once_it_has_moved_by_three_degrees_however_the_program_rounds(
+def test_in_mid_pass_ten_orders_or_four_degrees_of_its_way_are_enough_however_the_program_rounds(
     watch: StreamWatch, name: str, rounds: Callable[[float], float]
 ) -> None:
     from_s = pass_of(name, 1).tca_s - 60.0
@@ -82,7 +82,7 @@ def test_in_mid_pass_it_is_recognised_once_it_has_moved_by_three_degrees_however
     ]
     [count] = found
     moved_deg = SATELLITES[name].sight(from_s).apart_deg(SATELLITES[name].sight(from_s + count))
-    assert count == ORDERS or moved_deg < 4.0
+    assert count <= 10 or moved_deg < 4.0
 
 
 def test_a_program_that_sends_each_whole_degree_once(watch: StreamWatch) -> None:
