@@ -129,7 +129,9 @@ class Pointing:
         moving = self._track.moving(now_s)
         if self._led_until_s > now_s and _leaves(before, aim):
             self._led_until_s = -math.inf
-        if self._way is not None and (moving or self._led_until_s > now_s):
+        # An elevation above 90 names the way itself, and so does the one after it that comes back across the zenith.
+        named = self._is_over(aim) or self._is_over(before)
+        if self._way is not None and not named and (moving or self._led_until_s > now_s):
             # The antenna stays on its way, wherever it is now.
             flown_deg, _ = self._mount.on_the_way(
                 *direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
@@ -189,11 +191,16 @@ class Pointing:
             AimGoal(elevations_deg[0], self._elevation_tolerance_deg, Path(now_s, elevations_deg, EVEN)),
         )
 
+    def _is_over(self, aim: Aim) -> bool:
+        """Whether the order names the way over the top, and elevation reaches it."""
+        elevation_deg = aim.elevation_deg or 0.0
+        return elevation_deg > ZENITH_DEG and self._mount.elevation.holds(elevation_deg)
+
     def _choose_way(self, now_s: float, speeds: Speeds) -> None:
         assert self._way is not None
         if self._track.age_s(now_s) < SURE_AFTER_S or self._led_until_s > now_s:
             return
-        if (self.wanted.azimuth_deg or 0.0) > FULL_TURN_DEG:  # the sender names the overlap
+        if (self.wanted.azimuth_deg or 0.0) > FULL_TURN_DEG or self._is_over(self.wanted):  # the sender names its way
             return
         if self._routed_s is not None and now_s - self._routed_s < ROUTE_EVERY_S:
             return
