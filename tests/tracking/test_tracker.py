@@ -274,7 +274,7 @@ def up(rise: Box) -> Box:
 
 
 def test_its_satellite_is_named_and_flown_until_its_orders_depart(up: Box) -> None:
-    sends(up, 14)
+    sends(up, 20)
     assert up.loop.status.recognised.startswith("ISS")
     assert up.loop.status.controlled_by == str(PC), "the antenna is the program's still"
     sends(up, 60)
