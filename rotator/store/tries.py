@@ -87,7 +87,7 @@ class TriesFile:
         counted = {axis: replace(each, driven=False) for axis, each in tries.items()}
         again, self._last = tries == self._last, dict(tries)
         if counted != self._written and (not self._refuses(counted) or again):
-            # After a refusal it is not known what is on the card: the next content is written, whatever it is.
+            # After a refusal it is not known what is on the card: so the next content is always written.
             kept = self._file.save(self._content(counted))
             self._written, self._refused = (counted, None) if kept else (None, counted)
         if tries == self._written:

@@ -276,7 +276,7 @@ def test_each_cell(new_desk: Any, state: State, deed: Deed) -> None:
 
 @pytest.mark.parametrize("state", State, ids=lambda state: state.name)
 def test_a_nudge_is_kept_for_the_orders_to_come(new_desk: Any, state: State) -> None:
-    """Whatever holds the antenna back now; the mode switch alone forgets it."""
+    """In every state; only the mode switch forgets it."""
     desk = in_state(new_desk, state)
     desk.step(Nudge(EL, NUDGED_DEG), Stop(latch=True), Release(), by=PANEL)
     desk.step(SetMode(Mode.AUTO), Nudge(EL, NUDGED_DEG), by=PANEL) if desk.status.mode is not Mode.AUTO else None

@@ -1,4 +1,4 @@
-"""What a person is told of a relay that may not have opened, and of a limit switch."""
+"""The words for a relay that may not have opened, and for a limit switch."""
 
 from __future__ import annotations
 

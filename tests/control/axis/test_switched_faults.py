@@ -83,7 +83,7 @@ def test_a_count_that_gets_lost_is_a_fault_that_says_what_it_needs() -> None:
     assert axis.faults.fault is not None
     assert axis.faults.fault.measured == "homing (pulses at rest)"
     assert axis.faults.acknowledge(axis.now_s, by_person=True)
-    assert not axis.look(lost("pulses at rest"), looks=20), "it is told once"
+    assert not axis.look(lost("pulses at rest"), looks=20), "it is said once"
 
 
 def test_while_it_homes_a_lost_count_is_what_it_homes_for() -> None:

@@ -1,4 +1,4 @@
-"""Two control boxes on chips and a supply that only write down what they are told: leases, refreshes, cuts.
+"""Two control boxes on chips and a supply that only write down their orders: leases, refreshes, cuts.
 
 Where the antenna goes is tried on a simulated rotor (`test_digipot`, `test_digipot_stops`).
 """

@@ -316,7 +316,7 @@ def test_a_board_without_supply_is_told_and_comes_back_without_a_pulse(fault: st
     with pytest.raises(HardwareError):
         bench.follow(AZ, 100.0, 1.2)
     assert {AZ, EL} == set(bench.drive.faults())
-    assert bench.rotor.gpio.level(OE_PIN), "whatever the board sends, no servo gets it"
+    assert bench.rotor.gpio.level(OE_PIN), "no servo gets what the board sends"
     with pytest.raises(HardwareError, match="0x40"):
         bench.drive.sensor(AZ).read()
     bench.rotor.clear(fault)
