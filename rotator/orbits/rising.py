@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from rotator.orbits.chance import RISE_EVERY_S, Known, has_moved
 from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target
-from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, turn_deg
+from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, rounding_deg, turn_deg
 
 LONGEST_WAIT_S = 180.0
 """A satellite that rises later is not looked for."""
@@ -68,7 +68,7 @@ def waits_for(orders: Sequence[Heard], soon: Sequence[Soon], known: Known, likel
     at_horizon = all(order.elevation_deg == 0 for order in orders)
     if not at_horizon or len(orders) < LEAST_ORDERS or lasts_s < LEAST_S - UNSTEADY_S:
         return None
-    rounding = _azimuth_rounding_deg(orders)
+    rounding = rounding_deg(orders)
     fits = [each for each in soon if _explains(each, orders, rounding)]
     if len(fits) != 1:
         return None
@@ -89,13 +89,6 @@ def _rises_s(path: SampledPath, now_s: float) -> float | None:
             return at_s + STEP_S * before_deg / (before_deg - after_deg)
         at_s, before_deg = at_s + STEP_S, after_deg
     return None
-
-
-def _azimuth_rounding_deg(orders: Sequence[Heard]) -> float:
-    for rounding in (1.0, 0.1):
-        if all(math.isclose(each.azimuth_deg, round(each.azimuth_deg / rounding) * rounding) for each in orders):
-            return rounding
-    return 0.01
 
 
 def _explains(soon: Soon, orders: Sequence[Heard], rounding: float) -> bool:
