@@ -1,7 +1,7 @@
 """Drills at random in simulated time: `python -m benchmarks.drills --seed N --hours H [--kind KIND] [--json]`.
 
-Prints what each kind of rotor was put through, and of each violation the seed and the smallest script that shows it;
-`--replay FILE` plays such a script again. The exit code is 1 where something was found.
+Prints the drills and hours of each kind of rotor, and for each violation its seed and the smallest script that shows
+it; `--replay FILE` plays such a script again. The exit code is 1 if there is a violation.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from benchmarks.drills.play import play
 from benchmarks.drills.script import Drill
 
 KEPT = Path("run/drills")
-"""Where the scripts of violations are put."""
+"""The folder for the scripts of violations."""
 
 
 def main() -> None:
@@ -53,7 +53,7 @@ def _arguments() -> argparse.Namespace:
 
 
 def _replay(name: str) -> int:
-    """Play one drill, and tell what it shows and what the box said meanwhile."""
+    """Play one drill. Print its violations and the box's log."""
     try:
         drill = Drill.from_json(Path(name).read_text(encoding="utf-8")) if Path(name).exists() else _drawn(name)
     except ValueError as fault:

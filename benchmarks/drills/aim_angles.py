@@ -1,4 +1,4 @@
-"""The angles of the axes that an order of a drill may lead to, and the goals that they make.
+"""The axis angles to which an order of a drill may lead, and the goals that follow.
 
 Knows turns, shifts by the panel, the way over the top, and targets that waver. Does not know which orders have effect.
 """
@@ -14,11 +14,12 @@ from benchmarks.drills.shifts import Shifts
 from benchmarks.drills.wavering import Wavering
 
 STREAM_S = 12.0
-"""Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
+"""Two aims of one sender within this time belong to a stream, whose target moves between them."""
 
 
 class AimAngles:
-    """`axes`: the orders in force, where the goals are entered; an axis that is `lacking` its set-up gets none.
+    """`axes`: the orders in force, into which the goals are entered. `lacking`: the axis that was never set up; it gets
+    no goal.
 
     `recognised`: the programs whose streams may be flown as planned. `over_top`: whether the antenna stands over the
     top.
@@ -40,7 +41,7 @@ class AimAngles:
         self._over_top = over_top
         self.shifts = Shifts()
         self._wavering: dict[str, Wavering] = {}
-        """By the sender, and of all of them: a sender whose orders have no effect hides no target that moves."""
+        """By sender, and under "" for all senders together: orders without effect then hide no moving target."""
 
     def forget(self) -> None:
         """All orders end."""
@@ -82,7 +83,7 @@ class AimAngles:
         self.aim(event, "elevation", angles_deg)
 
     def aim_azimuth(self, event: Event, elevation_deg: float) -> None:
-        """Beyond north an order may be refused, as by a unit of 360°: the older one then stays, for both axes."""
+        """Enter the goal of azimuth. An order beyond 360° may be refused: the older order then stays, for both axes."""
         turns_deg = [
             angle_deg
             for shifted_deg in self.shifts.shifted("azimuth", event.number(0))

@@ -1,4 +1,4 @@
-"""Targets of a drill: passes along great circles, as short as it likes, named by the numbers that make them.
+"""Targets of a drill: passes along great circles, of any length, named by the numbers that make them.
 
 Knows where such a target is at each moment, and has its passes planned as the box has those of a satellite. `arc 20 120
 40 350 1 60` rises 20 s after the beginning at azimuth 350, is up for 120 s, stays down for 40 s, and so on; it passes
@@ -24,7 +24,7 @@ from rotator.tracking.planned import SPARE_S
 SITE = Site(0.0, 0.0, 0.0)
 ROW_S = 1.0
 SETS_OFF_S = 30.0
-"""A flight of the plan of many passes begins so long before its pass."""
+"""A flight of the plan of many passes is ordered this long before the antenna must be in place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +50,11 @@ class Arc:
             raise Unknown(f'"{words}" is no arc') from None
 
     def direction(self, at_s: float) -> tuple[float, float]:
-        """Before it rises, where it will."""
+        """Azimuth and elevation at this moment; before a rise, the direction of that rise."""
         return self._direction(at_s, self.around(at_s)[0])
 
     def _direction(self, at_s: float, begin_s: float) -> tuple[float, float]:
-        """In the pass that rises then."""
+        """Azimuth and elevation in the pass that rises at `begin_s`."""
         way = math.pi * min(max((at_s - begin_s) / self.lasts_s, 0.0), 1.0)
         top = math.radians(self.top_deg)
         turned_deg = math.degrees(math.atan2(math.sin(way) * math.cos(top), math.cos(way)))
@@ -62,7 +62,7 @@ class Arc:
         return (self.azimuth_deg + self.side * turned_deg) % 360.0, elevation_deg
 
     def around(self, at_s: float) -> tuple[float, float]:
-        """When the pass that is on, or comes next, rises and sets."""
+        """The moments of rise and set of the present pass, or of the next one."""
         number = max(0.0, math.floor((at_s - self.first_s) / (self.lasts_s + self.gap_s)))
         begin_s = self.first_s + number * (self.lasts_s + self.gap_s)
         if at_s >= begin_s + self.lasts_s:
@@ -80,7 +80,7 @@ class Arc:
 
 
 def draw_arc(chance: random.Random, at_s: float) -> str:
-    """The words of an arc: at this moment a pass is on, comes soon, or has just ended."""
+    """The words of an arc with a pass that is on at this moment, comes soon, or has just ended."""
     lasts_s, gap_s = chance.choice((10.0, 40.0, 120.0, 300.0)), chance.choice((5.0, 40.0, 600.0))
     first_s = max(0.0, at_s + chance.choice((-lasts_s, -lasts_s / 2, 0.0, 5.0, 40.0)) + chance.uniform(-3.0, 3.0))
     azimuth_deg, top_deg = chance.choice((0, 180, chance.randrange(360))), chance.choice((5, 30, 60, 85, 90))
@@ -88,7 +88,7 @@ def draw_arc(chance: random.Random, at_s: float) -> str:
 
 
 class Arcs:
-    """Finds and plans arcs: what `rotator.tracking` is given in place of a catalogue and a process."""
+    """Finds and plans arcs: `rotator.tracking` gets this object in place of a catalogue and a planning process."""
 
     def has_news(self) -> bool:
         return False
@@ -109,7 +109,7 @@ class Arcs:
         return self.plan(wanted, antenna, now).order
 
     def plan_followed(self, followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
-        """The one that rises first."""
+        """The flight of the arc that rises first."""
         arcs = [Arc.parse(each.wanted.words) for each in followed]
         rises_s, first = min((arc.around(now.utc_s)[0], index) for index, arc in enumerate(arcs))
         set_off_s = rises_s - SPARE_S - SETS_OFF_S

@@ -46,7 +46,7 @@ from rotator.store import counts, knobs, latch
 from rotator.store.latch import LatchFile
 
 SENTINEL_S = 0.04
-"""So soon after the death of the program its sentinel has opened the relays (docs/safety.md)."""
+"""Seconds after the death of the program until its sentinel has opened the relays (docs/safety.md)."""
 PANEL = Source("panel")
 
 
@@ -59,7 +59,7 @@ def configured(drill: Drill, folder: Path) -> Config:
     _merge(
         values, {"lcd": {"kind": "none"}, "rotor": {"hardware": "sim"}, "state": {"path": str(folder / "state.json")}}
     )
-    # A world that is said to be kept makes the box keep its own files, and trust them; the drill keeps it itself.
+    # With a world file the box keeps files of its own and trusts them. The drill itself keeps the world in memory.
     _merge(values, {"sim": {"world": str(folder / "world.json"), "bus_takes_time": False}})
     return simulated(parse(tomlkit.dumps(values), drill.profile))
 
@@ -128,7 +128,7 @@ class Box:
         self._numbers = itertools.count(1)
         self._sessions: dict[str, tuple[Session, Client]] = {}
         self._sources: dict[str, Source] = {}
-        """Of the sessions."""
+        """By link or person: the source of its session."""
         self.tracking = DrilledTracking(config, self.loop, self._mount, clock, begun_s)
         self.panel = self._panel() if config.panel.fitted else None
 
@@ -185,7 +185,7 @@ class Box:
         self.alive = False
 
     def die(self) -> None:
-        """SIGKILL: nothing more is said to any chip, and the sentinel opens the lines that stop the motors."""
+        """SIGKILL: the program sends nothing more to any chip, and its sentinel opens the relays."""
         self.alive = False
         self.tracking.end()
         self.world.gpio.bury_process()
@@ -223,5 +223,5 @@ class Box:
         )
 
     def _add_alarm(self, due_s: Callable[[], float | None], ring: Callable[[float], None]) -> None:
-        """The guard: it ends with its program."""
+        """Let the clock call the guard as long as the program lives."""
         self._clock.add_alarm(lambda: due_s() if self.alive else None, ring)

@@ -1,6 +1,6 @@
 """A random box: a kind of rotor as it is shipped, with other motors, ranges, switches, a master, a panel.
 
-Knows which keys are worth varying, and the names of the simulators' faults by kind. Does not know what happens to it.
+Knows which keys are worth varying, and the names of the simulators' faults by kind. Knows no event of a drill.
 """
 
 from __future__ import annotations
@@ -33,9 +33,10 @@ CHIMNEY_SHARE = 0.25
 
 @dataclass(frozen=True, slots=True)
 class Rotor:
-    """A kind. `faults` of an axis, by the simulators' names without it; `shared` ones have no axis.
+    """A kind of rotor, and the simulators' names of its faults.
 
-    `sporadic` ones strike each so many-th time, of an axis or `shared_sporadic`.
+    `faults` and `sporadic` are faults of one axis, named here without the axis; `shared` and `shared_sporadic` are of
+    the whole rotor. Sporadic faults spoil every n-th reading or answer.
     """
 
     kind: str
@@ -95,7 +96,7 @@ KINDS = {rotor.kind: rotor for rotor in ROTORS}
 
 @dataclass(frozen=True, slots=True)
 class Mast:
-    """What was drawn: the tables for the configuration, and what a script has to know of them."""
+    """The box that was drawn: the tables of its configuration, and the facts that a script needs."""
 
     rotor: Rotor
     tables: dict[str, Any]
@@ -153,7 +154,7 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
 def _sector(
     chance: random.Random, tables: dict[str, Any], start_deg: tuple[float, float], top_deg: tuple[float, float]
 ) -> None:
-    """A chimney somewhere, often in the way of one axis: neither where the rotor stands, nor where it parks."""
+    """A chimney at random, often in the way of one axis, but never at the rotor's start or park position."""
     for _ in range(20):
         spans = []
         beside = chance.choice((None, *BOTH))
@@ -172,7 +173,7 @@ def _sector(
 
 
 def _angle(chance: random.Random, low_deg: float, top_deg: float) -> float:
-    """Anywhere, often near an end or at it."""
+    """An angle at random, often at an end of the range or near it."""
     match chance.randrange(5):
         case 0:
             return low_deg + chance.choice((0.0, 1.0, 4.0))
@@ -183,13 +184,13 @@ def _angle(chance: random.Random, low_deg: float, top_deg: float) -> float:
 
 
 def _motors(chance: random.Random, rotor: Rotor, tables: dict[str, Any]) -> tuple[float, float]:
-    """Motors at 0.3 to 1.5 of what the file says."""
+    """Draw the motors, with 0.3 to 1.5 times the speed in the file. Returns the speeds in the file, in °/s."""
     speeds_dps = []
     for axis, usual_dps in zip(BOTH, (6.0, 2.7 if rotor.kind == "relay-pot" else 6.0), strict=True):
         said_dps = usual_dps if chance.random() < 0.6 else chance.choice((1.5, 3.0, 4.5, 9.0))
         share = 1.0 if chance.random() < 0.4 else chance.uniform(0.3, 1.5)
         if rotor.kind == "digipot":
-            share = 1.0  # nothing tells the box otherwise
+            share = 1.0  # the box cannot notice another speed
         lag_s = chance.choice((0.05, 0.1, 0.15, 0.3)) if rotor.kind == "relay-pot" else 0.1
         tables[axis] |= {"speed_dps": said_dps}
         tables["sim"][axis] = {

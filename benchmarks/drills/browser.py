@@ -1,8 +1,8 @@
 """A person on the page in a drill: what a paired browser sends, and when. Drawn from a stream of its own.
 
-Knows what people do with a page: they take the antenna, hold a button, point, set a mode, give it back, and say that
-they have looked at the relays. Does not know what the box makes of it. A button that is held sends its sign several
-times a second, and is let go, or its connection is lost.
+Knows what people do with a page: they take the antenna, hold a button, point, set a mode, give the antenna back, and
+say that they have looked at the relays. Does not know which orders the box obeys. A held button sends its sign several
+times a second until the person lets it go, or its connection is lost.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from rotator.protocols.session import Box, Tracking
 from rotator.web.holding import LEASE_S
 
 LOOKS_ON = 0.35
-"""In so many of the drills there is a browser."""
+"""The share of drills with a browser."""
 SIGN_S = 0.1
 WAYS = ("cw", "ccw", "up", "down")
 MODES = ("auto", "manual", "jog", "park")
@@ -58,7 +58,7 @@ class Browser:
 
 
 def draw_browser(seed: str, mast: Mast, seconds: float, moments_s: list[float]) -> list[Event]:
-    """Of the drill with this seed; empty: no browser is there. Much of it comes soon after another event."""
+    """The browser's events in the drill with this seed, most of them soon after another event; empty: no browser."""
     chance = random.Random(f"{seed}/page")
     if chance.random() >= LOOKS_ON:
         return []
@@ -74,7 +74,7 @@ def draw_browser(seed: str, mast: Mast, seconds: float, moments_s: list[float]) 
 
 
 def _errand(chance: random.Random, mast: Mast) -> list[tuple[str, *tuple[Arg, ...]]]:
-    """What a person does in a row."""
+    """The orders that a person gives one after the other."""
     way, axis = chance.choice(WAYS), chance.choice(BOTH)
     azimuth_deg, elevation_deg = (float(chance.randrange(round(top_deg))) for top_deg in mast.top_deg)
     aim: tuple[str, *tuple[Arg, ...]] = ("aim", azimuth_deg, elevation_deg)
@@ -100,7 +100,7 @@ def _errand(chance: random.Random, mast: Mast) -> list[tuple[str, *tuple[Arg, ..
 
 
 def _press(chance: random.Random, at_s: float, what: str, args: list[Arg]) -> list[Event]:
-    """The events of one press; a button that is held sends its signs, and is not always seen to be let go."""
+    """The events of one press. A held button sends its signs; the end of a hold may be lost."""
     if what != "hold":
         return [Event(round(at_s, 3), PAGE, what, tuple(args))]
     count = round(chance.choice((0.1, 0.4, 1.0, 3.0, 8.0)) / SIGN_S)

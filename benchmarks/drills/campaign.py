@@ -1,6 +1,6 @@
-"""A campaign: drills drawn from a seed until their hours are full, played on every core, and what they showed.
+"""A campaign: drills drawn from a seed until their hours are full, played on every core, and their violations.
 
-Knows seeds, hours and processes. Does not know what a drill is made of.
+Knows seeds, hours and processes. Does not know the parts of a drill.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from rotator.config.load import ConfigError
 HOUR_S = 3600.0
 STARTS_SHARE = 4.0
 FEW_STARTS = 20
-"""Fewer than this in a drill are right, whatever the readings."""
+"""Up to this many relay starts in a drill are right with any readings."""
 SHRINK_S = 3600.0
 """Simulated seconds spent on making one counterexample small."""
 
@@ -45,7 +45,7 @@ class Found:
 
 @dataclass(slots=True)
 class Tally:
-    """What one kind of rotor was put through."""
+    """The drills of one kind of rotor: their number, their hours and what they showed."""
 
     drills: int = 0
     hours: float = 0.0
@@ -54,7 +54,7 @@ class Tally:
 
 
 def verdict(drill: Drill) -> list[Violation]:
-    """What this drill shows: what the judges found, and too many relay starts, by a twin with good readings."""
+    """The violations of this drill. Its relay starts are compared with a twin: the same drill with good readings."""
     outcome = play(drill)
     if outcome.violations or outcome.relay_starts <= FEW_STARTS:
         return outcome.violations
@@ -63,7 +63,7 @@ def verdict(drill: Drill) -> list[Violation]:
         return []
     good = play(reads_well)
     most = STARTS_SHARE * max(good.relay_starts, FEW_STARTS / STARTS_SHARE)
-    # Two hands that press against each other start it again and again, whatever the sensor says.
+    # Two persons who press in opposite directions start a motor again and again, with any readings.
     presses = [event.text(0) for event in drill.events if event.what in ("hold", "jog")]
     contrary = sum(way != before for before, way in pairwise(presses))
     if good.violations or outcome.relay_starts <= most + contrary:
@@ -73,7 +73,8 @@ def verdict(drill: Drill) -> list[Violation]:
 
 
 def shows(wanted: Violation, drill: Drill) -> Violation | None:
-    """The same violation in this drill; of an exception, the same one. A box that cannot be built shows nothing."""
+    """The same violation in this drill, or None. An exception must be the same one. A box that cannot be built shows
+    nothing."""
     try:
         alike = [each for each in verdict(drill) if each.judge == wanted.judge]
     except ConfigError:
@@ -82,7 +83,7 @@ def shows(wanted: Violation, drill: Drill) -> Violation | None:
 
 
 def seeds(seed: int, hours: float, kind: str = "") -> Iterator[tuple[str, str]]:
-    """The seed and the kind of each drill, until they fill so many hours: all kinds in turn."""
+    """The seed and the kind of each drill until they fill `hours`; the kinds take turns."""
     kinds = [kind] if kind else list(KINDS)
     filled_s, number = 0.0, 0
     while filled_s < hours * HOUR_S:
@@ -94,7 +95,7 @@ def seeds(seed: int, hours: float, kind: str = "") -> Iterator[tuple[str, str]]:
 
 
 def try_one(job: tuple[str, str], *, small: bool = True) -> tuple[str, float, float, list[Found]]:
-    """Draw and play one drill: its kind, its hours, what it cost, and what was found; `small`: made small."""
+    """Draw and play one drill. Returns its kind, its hours, its CPU seconds and its finds. `small`: made small."""
     seed, kind = job
     began_s = time.process_time()
     drill = draw(seed, kind)

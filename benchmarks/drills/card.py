@@ -14,9 +14,9 @@ NAMES = ("state.json", counts.FILE_NAME, knobs.FILE_NAME, latch.FILE_NAME, relay
 
 
 def refuse(folder: Path, *, refuses: bool) -> None:
-    """From now on no file in the folder can be replaced; or again each."""
+    """From now on no file in the folder can be replaced; `refuses` False: every file can again."""
     for name in NAMES:
-        # A folder stands where the new content would be written first.
+        # A folder takes the name under which the new content would first be written.
         where = folder / (name + NEW)
         if refuses:
             where.mkdir(exist_ok=True)

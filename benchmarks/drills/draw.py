@@ -1,6 +1,6 @@
 """A drill at random from a seed: a box, programs and people that give it orders, and a world that fails it.
 
-Knows how often what happens. The same seed and number draw the same drill. Does not know what is right or wrong.
+Knows how often each event happens. The same seed and number draw the same drill. Does not judge.
 """
 
 from __future__ import annotations
@@ -70,14 +70,14 @@ def _event(at_s: float, who: str, what: str, *args: Arg) -> Event:
 
 
 def _moments(chance: random.Random, seconds: float) -> list[float]:
-    """When one sender sends: from once an hour to many a second, in a row or at random."""
+    """The moments of one sender's orders: from one an hour to many a second, at even intervals or at random."""
     rate_hz = 10.0 ** chance.uniform(-3.5, 0.5)
     count = min(200, max(1, round(rate_hz * seconds)))
     return sorted(chance.uniform(0.0, seconds) for _ in range(count))
 
 
 def _azimuth(chance: random.Random, mast: Mast) -> float:
-    """Often at an end, beyond it, or across north."""
+    """An azimuth at random, often at an end of the range, beyond it, or across north."""
     match chance.randrange(8):
         case 0:
             return chance.choice((0.0, 1.0, 359.0, 360.0))
@@ -155,7 +155,7 @@ def _order(chance: random.Random, mast: Mast, who: str, at_s: float, what: str) 
 
 
 def _stream(chance: random.Random, mast: Mast, who: str, seconds: float) -> list[Event]:
-    """A program that tracks: an order every so often along a path, then perhaps a stop."""
+    """A program that tracks: orders at even intervals along a path, then perhaps a stop."""
     at_s, every_s = chance.uniform(0.0, seconds / 2), chance.choice((0.1, 0.5, 1.0, 1.0, 2.0, 5.0))
     lasts_s = chance.uniform(10.0, max(20.0, seconds - at_s))
     rates_dps = chance.choice((0.0, 0.1, 0.5, 2.0)) * chance.choice((-1, 1)), chance.uniform(-0.5, 0.5)
@@ -221,14 +221,14 @@ def _panel(chance: random.Random, seconds: float) -> list[Event]:
 
 
 def _when(chance: random.Random, seconds: float, moments_s: list[float]) -> float:
-    """At any time, often within seconds of an order: while it starts, runs, ends, or waits out its dead time."""
+    """A moment at random, often within seconds of an order: while the motor starts, runs, stops, or waits."""
     if chance.random() < 0.6:
         return chance.choice(moments_s) + chance.uniform(-0.3, 6.0)
     return chance.choice((0.0, chance.uniform(0.0, seconds)))
 
 
 def _troubles(chance: random.Random, mast: Mast, seconds: float, moments_s: list[float]) -> list[Event]:
-    """Faults, alone and together, and their ends."""
+    """Faults, one or several at a time, and their ends."""
     events: list[Event] = []
     for _ in range(chance.choice((0, 0, 1, 1, 1, 2, 2, 3, 4))):
         at_s, lasts_s = _when(chance, seconds, moments_s), 10.0 ** chance.uniform(-1.0, 2.5)
@@ -281,7 +281,7 @@ def _trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening],
 
 
 def _time(chance: random.Random, seconds: float, moments_s: list[float]) -> list[Event]:
-    """Late cycles, a bus that hangs, and the end of the program with the world going on."""
+    """Late cycles, a bus that hangs, and ends of the program while the world goes on."""
     events: list[Event] = []
     for _ in range(chance.choice((0, 0, 0, 1, 2))):
         at_s = _when(chance, seconds, moments_s)

@@ -1,4 +1,4 @@
-"""What the front panel's mode switch and stop button mean by now, as the script moves them.
+"""The mode and the stop that the front panel's switch and button give at a moment, as the script moves them.
 
 Knows how long a switch must stand still, and that only a turn that begins while the button is out releases a stop. Does
 not know orders.
@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 STILL_S, STILL_AT_MOST_S = 0.95, 1.3
 """A mode switch counts when it has stood still for a second, at the next cycle."""
 NO_TURN_S = 0.4
-"""Between two looks further apart the program had no turn."""
+"""Between two looks further apart than this the program did not run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,23 +21,23 @@ class Turned:
 
     mode: str
     since_s: float
-    """No earlier could it count: an order that came later belongs to the new mode."""
+    """The earliest moment at which the switch may count: a later order may belong to the new mode."""
     releases: bool
-    """It releases a stop."""
+    """Whether this turn releases a stop."""
 
 
 class FrontPanel:
     def __init__(self) -> None:
         self.mode = self._stands_at = "auto"
-        """What counts, and where the switch stands."""
+        """The mode in force, and the position of the switch."""
         self.pressed = False
-        """The stop button is."""
+        """The stop button is pressed in."""
         self._pulled_s = -math.inf
         self._turn: Turned | None = None
         self._due_s = 0.0
         """When the turn has surely counted."""
         self._released: Turned | None = None
-        """A turn that went on before it had surely counted, and may have released a stop or PARK on its way."""
+        """A turn that another turn followed before it had surely counted: it may have released a stop or PARK."""
         self._looked_s = 0.0
 
     @property
@@ -50,7 +50,7 @@ class FrontPanel:
 
     def turn(self, mode: str, at_s: float) -> None:
         if mode == self._stands_at:
-            return  # it is not moved, so the second in which it has to stand still goes on
+            return  # the switch does not move, so its second of standing still goes on
         self._stands_at = mode
         releases = not self.pressed and self._pulled_s <= at_s
         if self._turn is not None and self._turn.since_s <= at_s and self._turn.releases:
@@ -72,7 +72,7 @@ class FrontPanel:
             return released
         if self._turn is None:
             return None
-        # Of a time without a turn only what came after the switch was moved counts.
+        # If the program did not run, only the time after the switch was moved counts.
         missed_s = now_s - max(looked_s, self._turn.since_s - STILL_S)
         if missed_s > NO_TURN_S:
             self._due_s += missed_s

@@ -1,6 +1,6 @@
-"""The orders in force for one axis of a drill: whose they are, where in its range they lead, and when they end.
+"""The orders in force for one axis of a drill: the sender, the angles of the axis that fulfil the order, and its end.
 
-Knows when an order has turned the motor for as long as it may. Does not know which orders there are.
+Knows when an order has turned the motor for as long as it may. Does not know the words of an order.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class Ranges:
     flips: bool
 
     def turns_deg(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
-        """Every axis angle that shows there, on any turn, over the top too where it may be."""
+        """Every azimuth angle that points there, on each turn, and over the top where that is allowed."""
         over = self.flips or elevation_deg > ZENITH_DEG
         bases = (azimuth_deg, azimuth_deg + TURN_DEG / 2) if over else (azimuth_deg,)
         return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
@@ -33,16 +33,16 @@ class Ranges:
 
 @dataclass(slots=True)
 class Goal:
-    """One sender's order for one axis. `angles_deg` empty: anywhere. `way`: it jogs."""
+    """One sender's order for one axis. `angles_deg` empty: any angle. `way`: the direction of a jog; 0: no jog."""
 
     angles_deg: tuple[float, ...] = ()
     ends_deg: tuple[float, ...] = ()
-    """The ends of the range where it may be waited for meanwhile."""
+    """The ends of the range at which the antenna may wait for the target."""
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
     turns_s: float = math.inf
-    """For so long more it may turn the motor, whenever it begins."""
+    """The time that is left for this order to turn the motor. It counts only while the motor runs."""
     rate_dps: float = 0.0
 
 
@@ -60,7 +60,7 @@ class AxisOrders:
         self.goals, self.homes = kept, self.homes and bool(kept)
 
     def turned(self, now_s: float, way: int, past_s: float) -> None:
-        """The box has fed the motor this way for so long."""
+        """The box has fed the motor in this direction for `past_s`."""
         for goal in self.goals.values():
             if goal.way == way:
                 goal.turns_s -= past_s

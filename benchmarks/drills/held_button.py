@@ -1,6 +1,6 @@
 """The button of the page that a person holds, and the presses of an axis that was never set up.
 
-Knows whose orders the button stands for, and when they end. Does not know what else is ordered.
+Knows the sender of the button's orders, and when they end. Knows no other order.
 """
 
 from __future__ import annotations
@@ -9,10 +9,11 @@ from benchmarks.drills.goals import AxisOrders
 from benchmarks.drills.script import PAGE
 
 PANEL_S = 0.2
-"""A jog switch is read twice before it counts, and once when it is let go."""
+"""An order by the panel or a button may end this much later: a jog switch is read twice when it is pressed, and once
+when it is let go."""
 AT_END = "at the end"
 BUTTON = f"{PAGE}, a button"
-"""Who jogs for as long as a button of the page is held."""
+"""The sender of a jog for as long as a button of the page is held."""
 
 
 class HeldButton:

@@ -1,7 +1,8 @@
 """Whether a person on the page holds the antenna, so that orders of programs have no effect.
 
-Knows what takes it and what gives it back, by the rules of docs/safety.md. Where that depends on what the box made of
-an order, it may be held: then a program's order may count, and the older ones too.
+Knows which orders take the antenna and which give it back, by the rules of docs/safety.md. Where the box may have
+ignored such an order, the antenna counts as perhaps held: then a program's order may have effect, and the older orders
+too.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 from benchmarks.drills.script import LINKS, PAGE, Event
 
 ORDERS = ("aim", "aim-azimuth", "aim-elevation", "jog", "park", "list", "run-list", "calibrate")
-"""What has no effect from a program while a person holds the antenna."""
+"""Orders of a program that have no effect while a person holds the antenna."""
 MOVES = (*ORDERS, "hold", "track", "storm", "home")
 
 
@@ -18,12 +19,12 @@ class HeldOff:
         self.surely = self.perhaps = False
 
     def forget(self) -> None:
-        """The program begins anew, or the switch of the panel turns."""
+        """The program has started again, or the panel's mode switch turns."""
         self.perhaps = self.perhaps or self.surely
         self.surely = False
 
     def note(self, event: Event, *, free: bool) -> None:
-        """`free`: nothing else holds the antenna back, and no switch of a panel turns."""
+        """Note one order. `free`: nothing else holds the antenna back, and no mode switch of a panel turns."""
         match event.who, event.what:
             case str(who), "take" if who == PAGE and free:
                 self.surely = self.perhaps = True
@@ -32,10 +33,10 @@ class HeldOff:
             case str(who), str(what) if who == PAGE and what in (*MOVES, "take", "mode"):
                 self.perhaps, self.surely = True, self.surely and what != "mode"
             case str(who), str(what) if who not in (*LINKS, PAGE) and what in MOVES:
-                self.surely = False  # a person at the box is held off by none
+                self.surely = False  # a hold on the page does not hold off a person at the box
 
     def holds_off(self, event: Event) -> bool:
-        """This order of a program has certainly no effect."""
+        """Whether this is an order of a program that certainly has no effect."""
         return self.surely and event.who in LINKS and event.what in ORDERS
 
     def may_hold_off(self, event: Event) -> bool:

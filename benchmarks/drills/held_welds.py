@@ -1,8 +1,9 @@
-"""Drills about one cause: a relay welds, and something holds its axis soon after it was switched off.
+"""Drills about one cause: a relay welds, and something holds its axis soon after the relay was switched off.
 
-A branch, a rope, or a stop that is nearer than a drifted sensor says: where the axis then stands, the box must not take
-the relay for open. `python -m benchmarks.drills.held_welds --seed N --count 100 [--kind relay-pulse]`; with `--healthy`
-nothing welds, and each relay that is suspected nevertheless is told. Knows how such a drill is drawn. Judges nothing.
+A branch, a rope, or a stop that is nearer than a drifted sensor says holds the axis: the box must not take the relay
+for open because the axis stands. `python -m benchmarks.drills.held_welds --seed N --count 100 [--kind relay-pulse]`;
+with `--healthy` no relay welds, and the command counts the drills in which the box suspects one. Knows how such a drill
+is drawn. Judges nothing.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from benchmarks.drills.script import COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Arg, 
 
 WAYS = (("cw", "ccw"), ("up", "down"))
 LONGEST_S = 1.5
-"""What holds it comes within so much of its way at full speed."""
+"""The obstacle is at most as far away as the axis turns in this time at full speed."""
 SUSPECTED = "relay not seen to open"
 KEPT = Path("run/drills")
 
@@ -112,9 +113,9 @@ def main() -> None:
         prog="python -m benchmarks.drills.held_welds", description=(__doc__ or "").splitlines()[0]
     )
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=100, help="so many drills")
+    parser.add_argument("--count", type=int, default=100, help="number of drills")
     parser.add_argument("--kind", choices=("relay-pot", "relay-pulse"), default="relay-pot")
-    parser.add_argument("--healthy", action="store_true", help="nothing welds: who is suspected nevertheless?")
+    parser.add_argument("--healthy", action="store_true", help="no relay welds: in how many drills is one suspected?")
     given = parser.parse_args()
     judged: Counter[str] = Counter()
     hours = 0.0

@@ -22,11 +22,11 @@ NO_ORDER = "moving with no order in force"
 FORBIDDEN = "inside a forbidden sector, coming from outside"
 STANDING_CURRENT = "current in a motor that does not turn"
 STARTS = "relay starts an hour under any bad sensor"
-SILENCE = "a fault that lasts, without a word to anybody"
+SILENCE = "a fault that lasts without a message"
 TABLE = (BOTH_FED, BEYOND, AFTER_STOP, AWAY, NO_ORDER, FORBIDDEN, STANDING_CURRENT, STARTS, SILENCE)
 
 LOOK_S = 0.11
-"""A look comes every 0.05 s: so much later than it is, a judge may see a thing."""
+"""A look comes every 0.05 s: a judge may see an event later by this."""
 BEYOND_S = 2.0
 STOP_S = 0.3
 WELDED_S = 2.0
@@ -35,16 +35,16 @@ TRY_S = 2.0
 TRIES, TRIES_WITHIN_S = 3, 600.0
 LEASE_S = 0.5
 COUNTED_PERIODS = 3
-"""A counted axis cannot tell standing from turning before its contact is overdue."""
+"""After so many periods of its contact without a change a counted axis can tell that it stands."""
 STREAM_LEAD_S = 5.0
 START_S = 0.5
-"""So long a motor may take to get going; a shorter pulse of current is no try."""
+"""A motor may take this long to start; a shorter pulse of current is no try."""
 GOING_SHARE = 0.1
 MET_S = 0.7
-"""What holds an axis so soon after its relay opened might as well be the end of its coast."""
+"""An axis that stops this soon after its relay opened may have coasted to rest: the box need not see a weld."""
 FAR_DEG = 10.0
 CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
-"""An order starts each axis once; so many more in that time are no control."""
+"""An order starts each axis once. More than `CHATTER_STARTS` further starts within `CHATTER_S` are chatter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,55 +60,55 @@ class Violation:
 
 @dataclass(slots=True)
 class AxisCase:
-    """What the judges keep of one axis. `slack_deg`: how far its sensor may be wrong without a trace."""
+    """What the judges keep of one axis. `slack_deg`: an error of its sensor that no box can notice."""
 
     low_deg: float
     high_deg: float
     tolerance_deg: float
     slack_deg: float = 1.0
     shift_deg: float = 0.0
-    """From the rotor's own scale to true degrees."""
+    """Added to an angle on the rotor's own scale, it gives true degrees."""
     trusted: bool = True
-    """Whether the angle of this axis can be known at all: a count can be lost, a model can be astray."""
+    """Whether the box can know the angle of this axis. False: its count is lost, or its model is astray."""
     astray: bool = False
-    """Its model has been led astray by the hardware: then it moves to be where it is believed to be."""
+    """The hardware has led the model of this axis astray: the axis then moves to the angle of the model."""
     feels: bool = True
-    """Whether anything comes back from this axis: a modelled one cannot know that it stands."""
+    """Whether the box has a reading of this axis. Without one it cannot know that the axis stands."""
     counts: bool = False
     blind: bool = False
-    """The contact that it counts by is stuck: nothing shows that a welded relay turns it."""
+    """The contact of a counted axis is stuck: nothing shows that a welded relay turns the axis."""
     shows_ends: bool = False
-    """Limit switches show its ends, also where it was never set up."""
+    """Limit switches show the ends of the axis, also where the axis was never set up."""
     repeats: bool = False
-    """Its sensor repeats one reading: what else is wrong with it does not show."""
+    """The sensor repeats one reading: other faults of the sensor do not show."""
     deaf: bool = False
-    """The chip of its control box does not hear: only its supply stops it, as the master a welded relay."""
+    """The chip of the axis's control box does not hear: only a cut of its supply stops the axis."""
     misplaced: bool = False
-    """Something may hold it where neither its limits nor its sensor say so."""
+    """Something may hold the axis at an angle that is no end by its limits and its sensor."""
     drifts: bool = False
-    """Its sensor has drifted: it meets one stop at several angles."""
+    """The sensor has drifted: the axis meets one stop at several readings."""
     beside_deg: float = 0.0
-    """How far a control box may turn to stand where its drifted sensor said it was when it was to hold."""
+    """How far a control box may turn after an order to hold: to the angle that its drifted sensor read then."""
     stalls: bool = False
-    """Its motor may have current and stand, wherever it is."""
+    """The motor may have current and stand, at any angle."""
     ran_on_s: float = 0.0
-    """For how long a welded relay has turned it since the box switched that relay off."""
+    """For how long a welded relay has turned the axis since the box switched that relay off."""
     patience_s: float = TRY_S
-    """How long it may take to see that it stands."""
+    """How long the box may take to see that the axis stands."""
     beyond_s: float = 0.0
     at_stops_s: float = 0.0
-    """How long it was driven against its stops since a person let it go."""
+    """How long the axis was driven against its stops since the latest release by a person."""
     away_s: float = 0.0
     idle_s: float = 0.0
     welded_s: float = 0.0
     standing_s: float = 0.0
     pressed_s: float = 0.0
-    """How long it stood in its latest run, until that ended."""
+    """How long the axis stood in its latest run, until that run ended."""
     stood_s: float = 0.0
-    """On an axis that counts, short runs in vain count together: so long of them is a try."""
+    """For how long a counted axis stood in short runs, taken together: `patience_s` of them is a try."""
     shorted_s: float = 0.0
     winds_down_s: float = 0.0
-    """Until then current may flow that a stop winds down: that is no try."""
+    """Until this moment a motor may still slow down under current after a stop: that is no try."""
     tries_s: deque[float] = field(default_factory=deque)
 
     def beside_s(self, full_dps: float) -> float:
@@ -116,20 +116,20 @@ class AxisCase:
 
     @property
     def deaf_s(self) -> float:
-        """How long it may take to cut the supply of a box that does not hear."""
+        """How long the box may take to cut the supply of a control box that does not hear."""
         return max(WELDED_S, self.patience_s) if self.deaf else 0.0
 
     def rest(self, *, at_stop: bool) -> None:
-        """The box feeds it no more; only at its stop does it stay where it was driven.
+        """The box feeds the motor no longer. The time beyond a limit goes on only while the axis stands at its stop.
 
-        An axis that counts cannot tell from one short run to the next that it stands: each run counts for itself.
+        A counted axis cannot tell from one short run to the next that it stands: each run counts for itself.
         """
         self.pressed_s = self.standing_s or self.pressed_s
         self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
     def press(self) -> None:
-        """Who sets the axis up watches it touch its stops: each press is a try of its own."""
+        """A person who sets the axis up watches it touch its stops: each press is a try of its own."""
         self.beyond_s = self.standing_s = 0.0
 
 
@@ -143,17 +143,17 @@ class Judges:
         self._acknowledged_s = self._ended_s = self._released_s = self._pressed_s = 0.0
         self._now_s = self._past_s = 0.0
         self.unattended_s = math.inf
-        """Since when the control thread gets no turn, or the program is dead."""
+        """Since when the control thread does not run, or the program is dead; infinite: it runs."""
         self.ends_at_once = True
-        """Whether the death of the program ends motion: not where chips keep their last order."""
+        """Whether the death of the program ends motion. False: the chips keep their last order."""
         self.goes_round = False
-        """Forbidden sectors lie in the way: it may have to move away from its target first."""
+        """Forbidden sectors lie in the way: an axis may have to move away from its target first."""
         self.excused_until_s = 0.0
-        """Until then the hardware moves by itself, as after a dip of its supply."""
+        """Until this moment the hardware moves by itself, as after a dip of its supply."""
         self.found: list[Violation] = []
         self._told: set[tuple[str, str]] = set()
         self._starts: deque[tuple[float, int]] = deque()
-        """The relay starts so far, less those that orders ask for, at each look of the last CHATTER_S."""
+        """For each look of the last CHATTER_S: its moment, and the relay starts beyond those that orders ask for."""
 
     def look(self, now_s: float, axes: list[AxisTruth]) -> None:
         self._past_s, self._now_s = now_s - self._now_s, now_s
@@ -161,7 +161,7 @@ class Judges:
         if stops_s != (self._acknowledged_s, self._ended_s):
             self._acknowledged_s, self._ended_s = stops_s
             for truth, case in zip(axes, self.cases, strict=True):
-                case.beyond_s = case.standing_s = 0.0  # the next order is another try, also where current flows on
+                case.beyond_s = case.standing_s = 0.0  # the next order is a new try, also if the current never stopped
                 case.winds_down_s = now_s if truth.relayed else now_s + truth.coasts_s + START_S
         if self._orders.stops.released_s != self._released_s:
             self._released_s = self._orders.stops.released_s
@@ -173,8 +173,8 @@ class Judges:
             if pressed and truth.name == self._orders.lacking and not case.shows_ends:
                 case.press()
             if truth.shorted_s > case.shorted_s:
-                # Pressed against its stop nothing shows that its relay has welded: while it homes, for a moment of a
-                # run of a counting axis, and in a calibration, where a person watches.
+                # While an axis presses against its stop, nothing shows that its relay has welded: when it homes, for a
+                # moment of each run of a counted axis, and in a calibration, where a person watches.
                 unseen = case.counts and not case.trusted and case.pressed_s < case.patience_s / COUNTED_PERIODS
                 homes = self._orders.axes[truth.name].homes
                 held = (case.misplaced and truth.at_stop) or case.stalls
@@ -196,12 +196,12 @@ class Judges:
             orders.turned(now_s, truth.coil, self._past_s)
             self._unordered(truth, case)
             self._standing(truth, case)
-            if not orders.homes:  # a person watches it touch its stop
+            if not orders.homes:  # when an axis homes, a person watches it touch its stop
                 self._beyond(truth, case)
                 self._away(truth, case, orders)
 
     def count(self, relay_starts: int | None) -> None:
-        """A motor that starts and stops several times a second, for no order: at once, without a twin to compare it."""
+        """Accuse a motor that starts and stops several times a second without an order. This needs no twin drill."""
         if relay_starts is None:
             return
         due = relay_starts - STARTS_AN_ORDER * self._orders.heard
@@ -250,9 +250,9 @@ class Judges:
             self._accuse(BEYOND, truth, f"{case.beyond_s:.2f} s in all, at {truth.shaft_deg:.1f}°")
 
     def _again(self, truth: AxisTruth, case: AxisCase) -> None:
-        """Against a stop once more, though no person has let it go: a link's stop and a restart are none.
+        """Accuse an axis that is driven against a stop again before a person has released it.
 
-        Where it stands still within its range it takes a second time to tell a stop from ice.
+        A stop from a link and a restart release nothing. Within the range the first time may be ice.
         """
         pressed = truth.name == self._orders.lacking and not case.shows_ends
         if truth.at_stop != truth.power or not truth.relayed or case.counts or case.drifts or pressed:
@@ -276,7 +276,8 @@ class Judges:
 
     @staticmethod
     def _nearing(goal: Goal, here_deg: float, truth: AxisTruth, case: AxisCase) -> bool:
-        """Whether it goes towards one of the goal's angles, or is about there. A stream is led by a few seconds."""
+        """Whether the axis moves towards one of the goal's angles, or is near it. The target of a stream is a few
+        seconds ahead."""
         slack_deg = 2.0 * case.tolerance_deg + case.slack_deg + STREAM_LEAD_S * goal.rate_dps
         places_deg = (*goal.angles_deg, *goal.ends_deg)
         return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in places_deg)
@@ -290,7 +291,7 @@ class Judges:
         if case.counts and not self._orders.axes[truth.name].homes and case.standing_s > START_S:
             case.stood_s += self._past_s
         tried = case.stood_s > case.patience_s if case.counts else before_s <= START_S < case.standing_s
-        # By a person who watches it: each press counts for itself.
+        # A person who sets the axis up watches it: each press counts for itself.
         pressed = truth.name == self._orders.lacking and not case.shows_ends
         winds_down = self._now_s < case.winds_down_s
         if tried and not pressed and not winds_down and self._orders.holds(truth.name):
@@ -301,19 +302,19 @@ class Judges:
             if len(case.tries_s) > TRIES:
                 tries = f"{len(case.tries_s)} tries in {TRIES_WITHIN_S / 60:.0f} minutes"
                 self._accuse(STANDING_CURRENT, truth, tries)
-        # A target that passed by it, on its way elsewhere, showed nothing meanwhile.
+        # A moving target may have passed the standing axis: meanwhile nothing showed that it does not follow.
         goals = self._orders.axes[truth.name].goals.values()
         passes_by = not truth.relayed and any(not goal.angles_deg and not goal.way for goal in goals)
         if case.standing_s > case.patience_s * (2.0 if passes_by else 1.0) + LOOK_S:
             self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
 
     def there(self, axes: list[AxisTruth]) -> frozenset[str]:
-        """The axes whose control box stands as it was sent, as far as the box can see."""
+        """The axes whose control box has arrived, as far as the box can see."""
         pairs = zip(axes, self.cases, strict=True)
         return frozenset(truth.name for truth, case in pairs if self._is_there(truth, case))
 
     def elsewhere(self, axes: list[AxisTruth]) -> frozenset[str]:
-        """The axes that every order in force for them sends far from where they stand."""
+        """The axes that stand far from the angles of all orders in force for them."""
         return frozenset(
             truth.name
             for truth, case in zip(axes, self.cases, strict=True)
@@ -327,9 +328,9 @@ class Judges:
         return all(goal.angles_deg for goal in goals) and all(abs(place - here_deg) > far_deg for place in places_deg)
 
     def _is_there(self, truth: AxisTruth, case: AxisCase) -> bool:
-        """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current.
+        """Whether the motor follows a set point, and the box sees the axis there: then nothing shows its current.
 
-        Round a sector, or for a pass, it is sent to places that no order names.
+        Round a sector, or in a pass, the box sends the axis to angles that no order names.
         """
         near_deg, here_deg = case.tolerance_deg + case.slack_deg, truth.shaft_deg + case.shift_deg
         goals = self._orders.axes[truth.name].goals.values()

@@ -1,7 +1,7 @@
 """How a mast was put up: where its scale begins, how far it may turn, how exactly it is to point, where it parks.
 
-Draws keys of the configuration by a chance of its own, so that a box with the same seed is else the same. Does not know
-what happens to it.
+Draws keys of the configuration with a random stream of its own: all other keys of a box depend on its seed only. Knows
+no event of a drill.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from typing import Any
 from benchmarks.drills.boxes import BOTH, Mast
 
 SHARE = 0.4
-"""So many of the boxes are not mounted as the shipped file has it."""
+"""The share of boxes that are mounted otherwise than the shipped file says."""
 CLEAR_DEG = 6.0
-"""The antenna stands so far inside its range at the start."""
+"""The antenna stands at least this far inside its range at the start."""
 
 
 def mounted(chance: random.Random, mast: Mast) -> Mast:
-    """The same box on a mast that somebody has put up otherwise."""
+    """The same box on a mast that was put up in another way."""
     if chance.random() >= SHARE:
         return mast
     tables: dict[str, Any] = {**mast.tables, **{axis: dict(mast.tables.get(axis, {})) for axis in BOTH}}
@@ -51,7 +51,7 @@ def mounted(chance: random.Random, mast: Mast) -> Mast:
 
 
 def _narrow(chance: random.Random, table: dict[str, Any], at_deg: float, top_deg: float) -> None:
-    """A tree, a wall: less than the rotor could turn. Where it stands is inside."""
+    """Limit the range by a tree or a wall. The start angle `at_deg` stays inside."""
     low_deg = max(0.0, min(round(chance.uniform(0.0, 40.0)), at_deg - CLEAR_DEG))
     high_deg = min(top_deg, max(round(top_deg - chance.uniform(0.0, 60.0)), at_deg + CLEAR_DEG))
     table |= {"min_deg": low_deg, "max_deg": high_deg}

@@ -1,7 +1,8 @@
 """Which orders of a drill are in force, as a person beside the mast would say it, axis by axis.
 
-Knows the script's orders and what ends them. Does not know what the box made of them: an order that it may have passed
-over counts as in force, and so does the older one that it may have kept. So a judge accuses only what no order excuses.
+Knows the script's orders and what ends them. Does not know which of them the box obeyed: an order that the box may have
+ignored counts as in force, and so does the older order before it. So a judge accuses only a motion that no order
+excuses.
 The stops are in `stops`, the page's button in `held_button`, the angles of an order in `aim_angles`.
 """
 
@@ -24,25 +25,25 @@ from benchmarks.drills.tracked import Tracked
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
 UNCALIBRATED_S = 2.0
-"""A press of an axis that was never set up."""
+"""A press turns an axis that was never set up for this time at most."""
 PUT_OFF_S = 6.0
-"""A jog with a time may begin so late: when the axis has been seen to stand."""
+"""A jog with a time may begin this late: when the box has seen the axis stand."""
 UNSEEN_S = 0.2
-"""A stop and its release so soon after a turn of a knob may come before the panel has seen that turn."""
+"""A stop and its release this soon after a turn of a knob may come before the panel has seen that turn."""
 LEASE_S = 0.5
-"""So long a button on the page counts as held after its last sign."""
+"""A button on the page counts as held for this time after its last sign."""
 ROUND, BEFORE = "round a sector", "before a jog"
 REFUSES_S = 0.3
-"""The box sees so late that an axis has come to rest."""
+"""The box may see this late that an axis has come to rest."""
 
 
 class Orders:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
-    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
-    may tell the box where an axis stands. `counts`: the axes count, and may not be homed. `turns`: whether an axis
-    turns, or its motor is fed: the box may refuse to be told then where it stands. `at_end`: whether an axis stands
-    about at that end of its range: a person's jog is refused there.
+    `over_top`: whether the antenna stands over the top; one coordinate alone then moves both axes. `confirms`: a person
+    may confirm the angle of an axis. `counts`: the axes count, and may not be homed yet. `turns`: whether an axis turns
+    or its motor is fed; the box may then refuse a confirmed angle. `at_end`: whether an axis stands near that end of
+    its range; a person's jog is refused there.
     """
 
     def __init__(
@@ -81,21 +82,21 @@ class Orders:
         self._modes = False
         """A person on the page has set a mode, which may hold a storm park back."""
         self._modes_known_s = STILL_AT_MOST_S
-        """Until then a panel's mode switch, read for the first time, may end what a person has taken."""
+        """Until this moment the first reading of a panel's mode switch may end a person's hold of the antenna."""
         self.sure = False
-        """A direction was ordered that nothing known held back, and nothing has ended it since."""
+        """A direction is in force for certain: nothing held back its order, and nothing has ended it."""
         self._listed = False
-        """There may be a list to run."""
+        """The box may have a list to run."""
         self._tracked = Tracked(self.axes, spans, follows=follows, lacking=lacking)
         self._aims = AimAngles(self.axes, spans, self._tracked.recognised, lacking=lacking, over_top=over_top)
         self.heard = 0
         """How many orders there have been."""
         self._knob: Event | None = None
-        """The knob of the panel that was turned last."""
+        """The latest turn of a knob of the panel."""
 
     @property
     def attended(self) -> bool:
-        """A person sets the box up, and watches the antenna."""
+        """Whether a person sets an axis up, and watches the antenna."""
         return bool(self.lacking)
 
     def holds(self, axis: str) -> bool:
@@ -107,11 +108,11 @@ class Orders:
         return self.stops.latched or self._panel.mode == "park"
 
     def ended_s(self, axis: str) -> float:
-        """When the last order for this axis ended; the beginning where there has been none."""
+        """When the last order for this axis ended; 0: no order has ended yet."""
         return self.axes[axis].ended_s or 0.0
 
     def forget_all(self, now_s: float) -> None:
-        """The program ends, and all orders with it. A stop that it had time to take goes on in the new one."""
+        """The program ends, and all orders with it. A stop that the program had time to store holds in its next run."""
         self._forget(now_s)
         self.stops.restart(now_s, pressed=self._panel.pressed)
         self._heard_again(now_s)
@@ -123,7 +124,8 @@ class Orders:
         self._tracked.begin_anew()
 
     def links_lost(self, now_s: float) -> None:
-        """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
+        """No stop could arrive from a link or console: motion that these ordered ends. A storm park and motion that the
+        panel ordered go on."""
         elsewhere = any(who in orders.goals for who in (PANEL, PAGE, BUTTON) for orders in self.axes.values())
         if not self.stops.storm_under_way and self._panel.mode == "auto" and not elsewhere:
             self._forget(now_s)
@@ -181,7 +183,7 @@ class Orders:
         self._tracked.note(event, takes=free and not self.lacking and not self._counts)
 
     def _may_idle(self, now_s: float) -> None:
-        """Once there has been an order, a box that parks when it is idle may do so."""
+        """After the first order a box with an idle park may park at any time."""
         if self._parks_idle:
             for axis, orders in self.axes.items():
                 orders.goals.setdefault("idle", Goal((self._park_deg[axis],), said_s=now_s))
@@ -197,7 +199,7 @@ class Orders:
                 if self._panel.mode != "park":
                     self.stops.order_anew()
                 if not self._held:
-                    # An antenna that must be homed first cannot park: what goes on then goes on.
+                    # An antenna that must be homed first cannot park: its present motion goes on.
                     if not self._counts:
                         self._forget(event.at_s)
                     free = self._panel.mode == "auto" and self._panel.settled and not self._modes
@@ -220,10 +222,10 @@ class Orders:
 
     def _note_page(self, event: Event) -> None:
         if event.what in ("take", "mode", "hold"):
-            self._silenced.other(event)  # a mode of its own lets a person move it at once
+            self._silenced.other(event)  # a person who takes the antenna or sets a mode is not silenced any more
         match event.what:
             case "take" if self.stops.storm_under_way or self._panel.mode != "auto" or not self._panel.settled:
-                pass  # a person at the panel whose switch is held jogs on
+                pass  # a person at the panel who holds a jog switch goes on jogging
             case "take" | "mode":
                 self._forget(event.at_s)
                 self.stops.take()
@@ -241,17 +243,17 @@ class Orders:
                 self._note_person(event)
 
     def _jog(self, event: Event, axis: str, goal: Goal) -> None:
-        """At an end of the range a person's jog is refused with the reason: what goes on may go on beside it."""
+        """At an end of the range a person's jog is refused with the reason, and the present motion may go on."""
         person = event.who in (*PEOPLE, PAGE, BUTTON)
         who = f"{event.who} {AT_END}" if person and self._at_end(axis, goal.way) else event.who
         self.axes[axis].goals[who] = goal
         others = [orders.goals for name, orders in self.axes.items() if name != axis]
         for goals in others:
-            # It silences the stream of another sender, whose latest target stays in force for the other axis.
+            # A jog silences the stream of another sender. The stream's latest target stays in force for the other axis.
             streams = [other for other in goals if other != event.who and not other.endswith(BEFORE)]
             goals.update({f"{other} {BEFORE}": replace(goals[other]) for other in streams})
         if self.goes_round and any(other.angles_deg for goals in others for other in goals.values()):
-            # The other axis goes on to its target, and this one may have to make room for it.
+            # The other axis goes on to its target, and this axis may have to make room for it.
             self.axes[axis].goals[f"{event.who} {ROUND}"] = Goal(said_s=event.at_s)
 
     def _note_panel(self, event: Event) -> None:
@@ -271,7 +273,7 @@ class Orders:
                 axis, way = WAYS[event.text(0)]
                 until_s = event.at_s + event.number(1) + PANEL_S
                 self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
-            case "jog":  # it may shift the target in force, and those that come later
+            case "jog":  # the press may shift the target in force, and later targets
                 axis, way = WAYS[event.text(0)]
                 self._anywhere(event, axis)
                 self._aims.shifts.press(axis, way)
@@ -281,8 +283,8 @@ class Orders:
     def _note_order(self, event: Event) -> None:
         match event.what:
             case "aim":
-                # Orders that were refused, before it was homed, make no sender that a stop silences.
-                # A turn of the mode switch lets senders go again, perhaps already now.
+                # Orders that a counted axis refused before its homing make no stream that a stop could silence.
+                # A turn of the mode switch ends the silence of all senders, perhaps already now.
                 silenced = self._silenced.aim(event) and not self._panel.may_turn(event.at_s)
                 if silenced and not self._counts:
                     return
@@ -320,7 +322,7 @@ class Orders:
             case "park":
                 for axis in AXES:
                     self._aims.aim(event, axis, (self._park_deg[axis],))
-            case "list":  # until it runs, its first point is the target
+            case "list":  # until the list runs, its first point is the target
                 self._listed = True
                 first = replace(event, args=event.args[1:3])
                 self._aims.aim_azimuth(first, first.number(1))
@@ -336,16 +338,16 @@ class Orders:
         self._heard_again(now_s)
 
     def _heard_again(self, now_s: float) -> None:
-        """No stop holds the senders back any more."""
+        """The silence of all senders ends: no stop holds them back any more."""
         self._silenced.forget()
         if self._knob is not None and now_s - self._knob.at_s < UNSEEN_S:
-            self._note_panel(self._knob)  # the panel sees the turn only now
+            self._note_panel(self._knob)  # the panel may see the turn only now
 
     def _left(self, event: Event) -> None:
         for axis, orders in self.axes.items():
             goal = orders.goals.get(event.who)
             if goal is not None and goal.way and event.who not in PEOPLE:
-                # A press of an axis that was not set up, or not homed, ends by itself.
+                # A press of an axis that was never set up or homed has an end of its own.
                 lasts_s = UNCALIBRATED_S + PUT_OFF_S if self._counts or axis == self.lacking else 0.0
                 goal.until_s = min(goal.until_s, max(event.at_s, goal.said_s + lasts_s))
                 orders.expire(event.at_s)

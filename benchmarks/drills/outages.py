@@ -1,7 +1,7 @@
-"""What else fails around the box: a program that is killed or ends again and again, a card that refuses to be written.
+"""Failures around the box: a program that is killed or ends again and again, a card that refuses to be written.
 
-Drawn beside a drill, from a chance of its own: the drill stays as it was. Knows how often what happens. Does not know
-what is right or wrong.
+Drawn with a random stream of its own, so that the rest of the drill stays the same. Knows how often each failure
+happens. Does not judge.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from benchmarks.drills.boxes import BOTH, Mast
 from benchmarks.drills.script import COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Event
 
 LOOPS, CARDS = 0.1, 0.15
-"""In so many of the drills."""
+"""The shares of drills with a program that ends again and again, and with a card that refuses."""
 
 
 def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], float]:
-    """The events, and how long the drill then lasts."""
+    """The events of the outages, and the seconds that the drill then lasts."""
     chance = random.Random(f"{seed} outages")
     events: list[Event] = []
     if chance.random() < CARDS:
@@ -33,7 +33,7 @@ def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], fl
 
 
 def _loop(chance: random.Random, mast: Mast, begins_s: float) -> tuple[list[Event], float]:
-    """A program that insists, an axis that something may hold, and a box that ends again and again."""
+    """A program that repeats its order, an axis that an obstacle may hold, and a box that ends again and again."""
     what, every_s, count = chance.choice(("kill", "restart")), chance.uniform(4.0, 20.0), chance.randrange(4, 16)
     axis, link = chance.randrange(2), chance.choice(COMMON_LINKS)
     aim_deg = [round(chance.uniform(0.2, 0.8) * top_deg) for top_deg in mast.top_deg]

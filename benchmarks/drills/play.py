@@ -1,6 +1,6 @@
 """Plays a drill: the box in simulated time, the events at their moments, and the judges after every cycle.
 
-Knows time. Does not know what an event means to a part of the world, nor what may not happen.
+Knows time. Does not know how an event changes a part of the world, nor what the judges forbid.
 """
 
 from __future__ import annotations
@@ -32,27 +32,28 @@ STEP_S = 0.05
 """How often the world is looked at while no control cycle comes."""
 FAILS = "the program ends with an exception, or its sentinel kills it"
 CARD_ENDS_LATER = 2.0
-"""The card refuses once the program has ended, before it begins again: what it says is older than the next run."""
+"""The number of an event `card`: the card refuses from the next end of the program on, so the next run finds its older
+content."""
 STALLED_S = 1.0
-"""Links whose event loop has stood still for longer have lost their orders."""
+"""If their event loop stands still for longer than this, the orders of links end."""
 OUTSIDE = ("zero", "full")
-"""What a bad reading shows that no sensor in order can show."""
+"""Kinds of bad readings that no healthy sensor can show."""
 MOST_ACTS_S = 0.01
-"""Orders that come faster than this are taken together, as by a thread that is woken."""
+"""Orders within this time are taken together, as by the real control thread, which takes a moment to wake."""
 
 
 @dataclass(slots=True)
 class Outcome:
-    """What a drill showed."""
+    """The result of a drill."""
 
     violations: list[Violation] = field(default_factory=list)
     relay_starts: int = 0
     said: list[str] = field(default_factory=list)
-    """The box's log, for the person who looks into a violation."""
+    """The box's log, for a person who examines a violation."""
 
 
 def play(drill: Drill) -> Outcome:
-    """Play it to its end, or to the first violation."""
+    """Play the drill to its end, or to the first violation."""
     log = logging.getLogger()
     handlers, level = log.handlers, log.level
     with tempfile.TemporaryDirectory(prefix="drill-") as folder:
@@ -94,11 +95,11 @@ class _Play:
         self._stalled_s: tuple[float, float] | None = None
         """The event loop of the links stands still, from when to when; None: it runs."""
         self._unheard: list[Event] = []
-        """What links and people have sent to it meanwhile."""
+        """The events that links and people have sent to that event loop meanwhile."""
         self._acted_s = -1.0
         self._acknowledged_s = 0.0
         self._back_s = 0.0
-        """When the program began: what was sent to it before is lost."""
+        """When the program last started: events that were sent before are lost."""
 
     @property
     def _now_s(self) -> float:
@@ -128,7 +129,7 @@ class _Play:
                 self._sleep_until(event.at_s)
                 before_s = self._now_s
                 self._happen(replace(event, at_s=before_s), late_s=before_s - event.at_s)
-                if self._now_s > before_s + self._period_s:  # the control thread had no turn meanwhile
+                if self._now_s > before_s + self._period_s:  # the control thread did not run meanwhile
                     next_s = self._now_s
                 continue
             self._sleep_until(next_s)
@@ -189,7 +190,7 @@ class _Play:
                 self._hear(event)
 
     def _tick(self) -> None:
-        """The event loop ticks, or stands still; what it has missed it then hears at once."""
+        """The event loop ticks, or stands still. When it runs again, it gets the events that it has missed."""
         if self._stalled_s is None:
             self._box.events.tick()
             return
@@ -220,7 +221,7 @@ class _Play:
             if event.what == "confirm":
                 event = self._confirmed(event)
             if event.what == "relays-checked" and self._world.axes[event.text(0) == "elevation"].welded:
-                return  # a person who looks at the relays sees it
+                return  # a person who looks at the relays sees the weld, and does not say that all are open
             if not (data := said(event)):
                 return
             self._orders.note(event)
@@ -232,7 +233,7 @@ class _Play:
             self._box.loop.act()
 
     def _confirmed(self, event: Event) -> Event:
-        """A person reads the antenna's angle, wrong by so much."""
+        """A person reads the antenna's angle, with the error in degrees that the event gives."""
         place = 0 if event.text(0) == "azimuth" else 1
         angle_deg = self._world.axes[place].shaft_deg + self._cases[place].shift_deg + event.number(1)
         self._cases[place].slack_deg += abs(event.number(1))
@@ -261,7 +262,7 @@ class _Play:
                 self._silence.end("pot-crackles")
                 self._stand = self._stand | {event.text(0)} if event.number(1) else self._stand - {event.text(0)}
             elif event.text(0) in self._stand:
-                pass  # it shows the same angle whatever happens to it
+                pass  # its reading stands still, so a bad reading does not show
             elif self._config.rotor.type == "relay-pot" and event.number(1) and event.text(2) in OUTSIDE:
                 self._silence.begin(f"{event.text(0)}-every:{event.number(1):.0f}", now_s)
 
@@ -286,7 +287,8 @@ class _Play:
                 self._jitter_until_s, self._jitter_s = self._now_s + seconds, event.number(1)
 
     def _restart(self, event: Event) -> None:
-        """The program ends, and begins again so much later. What it wrote to its folder before is all that is left."""
+        """The program ends, and starts again after the seconds that the event gives. Only the files in its folder
+        remain."""
         if event.what == "kill":
             kept = self._folder.with_name("kept")
             shutil.copytree(self._folder, kept)
@@ -306,9 +308,10 @@ class _Play:
         begins_anew(self._config, self._cases, self._world.axes)
 
     def _pass(self, seconds: float, *, dead: bool) -> None:
-        """The world goes on, and the control thread gets no turn."""
+        """The world goes on, and the control thread does not run."""
         self._judges.unattended_s = self._now_s
-        # In a thread that stands still, the guard still ends every command; a dead program leaves chips as they are.
+        # While only the control thread stands still, the guard ends every command. A dead program leaves its chips as
+        # they are.
         self._judges.ends_at_once = not dead or self._config.rotor.type not in KEEP_THEIR_ORDER
         for _ in range(math.ceil(seconds / STEP_S)):
             self._clock.sleep(STEP_S)

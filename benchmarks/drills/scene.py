@@ -1,4 +1,4 @@
-"""What a configuration and a fault mean for the judges: ranges, what a sensor can tell, and what leads a box astray.
+"""The judges' view of a configuration and of a fault: the ranges, the sensor's possible error, and unnoticeable faults.
 
 Knows the kinds of rotor, and which of the world's troubles no box can notice. Does not judge.
 """
@@ -23,15 +23,16 @@ NOISE_SIGMAS = 5.0
 NOISY_DEG, NOISY_TRY_S = 0.2, 2.4
 SLOW_DPS, SLOW_TRY_S = 2.0, 4.0
 ROUGH_S, ROUGH_TRY_S = 0.08, 3.0
-"""Readings that scatter by what the motor turns in this time, and how long it then takes to see that it stands."""
-"""Noise hides a slow motor: these are docs/safety.md's."""
+"""Noise hides a slow motor, so the box needs longer to see that an axis stands (docs/safety.md). Three cases, each with
+the box's time: readings that scatter by `NOISY_DEG`; a motor slower than `SLOW_DPS`; readings that scatter by the angle
+that the motor turns in `ROUGH_S`."""
 PRESSES_S = 0.8
-"""Each press of a motor that counts may take so long, or a part of it, to begin."""
+"""A press on a counted axis may begin later by up to this time."""
 READINGS = ("every", "burst", "noise", "drift", "stands")
 SENSORS = ("pot-", "adc-", "contact-", "pulses-", "replies-")
-"""How the simulators' names of faults of a sensor begin, without their axis."""
+"""The first words of the simulators' names of sensor faults, without the axis."""
 AT_END_DEG = 4.0
-"""So near to an end of its range a person's jog may be refused: by a status that is a moment old."""
+"""A person's jog may be refused this near to an end of the range: the status that refuses it is a moment old."""
 DIP_S = 1.2
 """A chip that has lost its supply for a moment gets its order again within a second."""
 
@@ -101,7 +102,7 @@ def _may_see_end(truth: AxisTruth, case: AxisCase, way: int) -> bool:
 
 
 def lapse(drill: Drill) -> Iterator[Event]:
-    """The events one by one: a stream and a flood are many orders."""
+    """The drill's events, with each stream, flood and arc as its single orders."""
     for event in drill.events:
         match event.what:
             case "stream":
@@ -125,7 +126,7 @@ def lapse(drill: Drill) -> Iterator[Event]:
 
 
 def spoils_readings(event: Event) -> bool:
-    """Whether this is a trouble of a sensor alone, or the end of one."""
+    """Whether this event is a trouble of a sensor only, or the end of such a trouble."""
     if event.who != WORLD or event.what in READINGS:
         return event.who == WORLD
     name = str(event.args[0]).removeprefix("azimuth-").removeprefix("elevation-")
@@ -133,7 +134,7 @@ def spoils_readings(event: Event) -> bool:
 
 
 def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, event: Event) -> None:
-    """What this trouble of the world excuses from now on: what no box could notice."""
+    """Note in the cases what this trouble of the world excuses from now on, because no box could notice it."""
     name = str(event.args[0]) if event.args else ""
     plain = name.removeprefix("azimuth-").removeprefix("elevation-")
     mine = [cases[1]] if name.startswith("elevation") else [cases[0]] if name.startswith("azimuth") else list(cases)
@@ -151,11 +152,11 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
             case "drift":
                 case.misplaced = case.drifts = True
                 case.slack_deg += abs(event.number(2))
-                # A control box follows its own pot: where the other one drifts, it is held beside its place.
+                # A control box follows a pot of its own. If the measured pot drifts, it holds beside the ordered angle.
                 if config.rotor.type == "digipot":
                     case.feels, case.beside_deg = False, abs(event.number(2))
             case "stands" | "burst" if config.rotor.type == "digipot" and event.args[-1] in (1.0, "last"):
-                # A stop sends the box to where its sensor stood.
+                # A stop sends the control box to the angle at which its sensor stands still.
                 case.trusted, case.astray = False, True
             case "pace" | "push" | "weld" if not case.feels:
                 case.trusted, case.astray = False, True
@@ -179,11 +180,11 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
 
 
 def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth]) -> None:
-    """The program has begun again: without feedback an axis is taken to stand where the file says."""
+    """The program has started again: it takes an axis without feedback to stand at the angle of the file."""
     if config.rotor.type not in KEEP_THEIR_ORDER:
         return
     for axis, case, truth in zip(Axis, cases, truths, strict=True):
         start_deg = (config.digipot if config.rotor.type == "digipot" else config.servo).of(axis).start_deg
         if not case.feels and abs(truth.shaft_deg - start_deg) > config.kind.slack_deg(axis):
-            # A servo stands there until its first pulse; a control box has had its supply, and may turn.
+            # A servo stands still until its first pulse. A control box has its supply, and may turn at once.
             case.trusted, case.astray = False, case.astray or config.rotor.type == "digipot"

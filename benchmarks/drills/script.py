@@ -1,6 +1,6 @@
-"""A drill as a value: a box, its world, and what happens to both, by the second. It comes from JSON and goes there.
+"""A drill as a value: a box, its world, and the events of both with their moments. Read from JSON, and written as JSON.
 
-Knows names and numbers. Does not know how a drill is played, nor what may not happen in it.
+Knows names and numbers. Does not know how a drill is played, nor what the judges forbid.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Drill:
     """The axis that is treated as never set up; empty: none."""
     events: tuple[Event, ...] = ()
     seed: str = ""
-    """Of the noise, and where the script comes from."""
+    """The seed of the noise. It also names the drill from which this script was made."""
 
     def with_events(self, events: tuple[Event, ...]) -> Drill:
         return replace(self, events=events)

@@ -20,7 +20,7 @@ class _Sector:
     high_deg: tuple[float, float]
     margin_deg: float
     excused: bool = True
-    """It began inside, or something else than the box has carried it in."""
+    """The boom was inside at the start, or something other than the box has carried it in."""
 
     def holds(self, axes: list[AxisTruth], cases: tuple[AxisCase, AxisCase]) -> bool:
         for truth, case, low_deg, high_deg in zip(axes, cases, self.low_deg, self.high_deg, strict=True):

@@ -1,7 +1,7 @@
 """By how much the front panel's jog switches may have shifted the orders of programs.
 
-Knows the rule of docs/panel.md: in AUTO each press is a step more, until the mode changes; a stop ends none. A press
-may not have counted, so every sum of steps that is possible is kept. Does not know orders.
+Knows the rule of docs/panel.md: in AUTO each press shifts by one step more, until the mode changes; a stop ends no
+shift. The box may have ignored a press, so every possible sum of steps is kept. Does not know orders.
 """
 
 from __future__ import annotations
@@ -23,5 +23,5 @@ class Shifts:
         self._steps.clear()
 
     def shifted(self, axis: str, angle_deg: float) -> list[float]:
-        """Where an order for this angle may lead."""
+        """The angles to which an order for this angle may lead."""
         return [angle_deg + steps * STEP_DEG for steps in sorted(self._steps.get(axis, {0}))]

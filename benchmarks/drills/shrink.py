@@ -15,7 +15,7 @@ from benchmarks.drills.judges import Violation
 from benchmarks.drills.script import PANEL, Drill, Event
 
 AFTER_S = 0.2
-"""A drill ends so much later than what it shows."""
+"""A drill ends this long after its violation."""
 
 Shows = Callable[[Drill], Violation | None]
 """The violation that is looked for, if this drill shows it."""
@@ -23,7 +23,7 @@ Change = Callable[[Drill], Drill]
 
 
 class Budget:
-    """So many simulated seconds may be spent: a replay costs as much as what it plays."""
+    """The simulated seconds that may be spent. A replay costs the length of its drill."""
 
     def __init__(self, seconds: float) -> None:
         self.left_s = seconds
@@ -74,10 +74,10 @@ def _fewer(best: Callable[[], Drill], tried: Callable[[Drill], bool]) -> None:
 
 
 def _plainer(drill: Drill) -> Iterator[Change]:
-    """What makes a drill plainer: less of a box, one key at a time; and streams of fewer orders."""
+    """Changes that make a drill plainer: the box without one table or key, or a stream of fewer orders."""
     for key, value in drill.tables.items():
         if key == "panel" and any(event.who == PANEL for event in drill.events):
-            continue  # the judges take it that a part which is used is there
+            continue  # the judges assume that the box has a panel that the script uses
         yield partial(_without_table, key=key)
         for inner in value:
             yield partial(_without_key, key=key, inner=inner)
@@ -97,7 +97,7 @@ def _without_key(drill: Drill, *, key: str, inner: str) -> Drill:
 
 
 def _halved(drill: Drill, *, place: int) -> Drill:
-    """With half of the orders of one stream. A plainer drill may be shorter than the one before it."""
+    """The drill with half of the orders of one stream. `place` may be beyond the end of a drill with fewer events."""
     event = drill.events[place] if place < len(drill.events) else None
     if event is None or event.what not in ("stream", "flood", "arc"):
         return drill
@@ -110,7 +110,7 @@ def _without(table: dict[str, Any], key: str) -> dict[str, Any]:
 
 
 def _sooner(drill: Drill) -> Iterator[Drill]:
-    """The same with the quiet before its first event cut away."""
+    """The drill without the quiet time before its first event."""
     if drill.events and drill.events[0].at_s > 1.0:
         by_s = drill.events[0].at_s - 1.0
         moved: tuple[Event, ...] = tuple(replace(each, at_s=round(each.at_s - by_s, 3)) for each in drill.events)

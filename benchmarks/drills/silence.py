@@ -1,8 +1,8 @@
-"""The last line of the table: a fault that lasts, without a word to anybody.
+"""The last line of the table: a fault that lasts without a message.
 
-Knows how long each fault of the simulators has been to be seen (`told` says which, and when). The only judge that
-listens to the box: a fault of the axis counts, a notice of the axis or of the box that was not shown before, and a line
-of the log that names the axis. A part that serves both may be told at either.
+Knows for how long each fault of the simulators could be seen (`told` says which fault, and when). The only judge that
+listens to the box. As a message counts: a fault of the axis, a new notice of the axis or of the box, and a line of the
+log that names the axis. A message about a part of both axes may come at either axis.
 """
 
 from __future__ import annotations
@@ -20,25 +20,26 @@ from rotator.exchange.status import Status
 IGNORED = "orders from"
 CURRENT = (Shows.DRIVEN, Shows.PRESSED, Shows.TURNED)
 IN_VAIN = "presses did not move it"
-"""What stays true, and shown, of an axis that is held for another reason than at first."""
+"""This notice stays true of an axis that stands for another reason by now: it counts as a message without being new."""
 AXES = tuple(axis.value for axis in Axis)
 PERIOD_S = 0.05
 TRACKING = "rotator.tracking"
-"""That a target is tracked no longer tells no fault."""
+"""The logger of the tracker: its lines are about targets, and report no fault."""
 TURNING_SHARE = 0.5
-"""A welded contact or a hand turns it as fast as this share of its speed: slower is a wind, and only a notice."""
+"""A welded contact or a hand turns an axis at this share of its speed or faster. Wind turns it slower: that is only a
+notice."""
 BLOWN_SHARE = 0.2
 
 
 class Words(logging.Handler):
-    """The log, and when it last had anything to say."""
+    """The box's log, and when its latest line came."""
 
     def __init__(self, clock: Callable[[], float]) -> None:
         super().__init__(logging.WARNING)
         self._clock = clock
         self.said_s = float("-inf")
         self.named_s = dict.fromkeys(AXES, float("-inf"))
-        """When a line named the axis last."""
+        """By axis: when the latest line that names it came."""
         self.lines: list[tuple[float, str]] = []
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -58,13 +59,13 @@ class _Lasting:
     rule: Rule
     since_s: float
     before: frozenset[str] = frozenset()
-    """The notices that were shown already."""
+    """The notices that were shown before the fault began."""
     seen_s: float = 0.0
-    """For how long there has been something to see."""
+    """For how long the fault could be seen."""
 
 
 class Silence:
-    """Tell it when a fault begins and ends; `look` after every cycle."""
+    """Call `begin` and `end` when a fault begins and ends, and `look` after every cycle."""
 
     def __init__(self, words: Words, cases: tuple[AxisCase, AxisCase]) -> None:
         self._words = words
@@ -85,11 +86,11 @@ class Silence:
         self._lasting = [each for each in self._lasting if each.name != plain(name)]
 
     def acknowledged(self) -> None:
-        """The box was stopped or released, or the program begins again."""
+        """The box was stopped or released, or the program has started again."""
         self._lasting = [each for each in self._lasting if not each.rule.heals]
 
     def pause(self, now_s: float) -> None:
-        """The program had no turn until now: nothing could be said."""
+        """The program did not run until now: it could send no message."""
         self._looked_s = now_s
         for each in self._lasting:
             each.seen_s = 0.0
@@ -104,8 +105,8 @@ class Silence:
         there: frozenset[str] = frozenset(),
         elsewhere: frozenset[str] = frozenset(),
     ) -> None:
-        """`ordered`: an order is in force. `there`: axes whose control box stands as it was sent. `elsewhere`: axes
-        that an order for certain sends away from where they are.
+        """`ordered`: an order is in force. `there`: axes whose control box has arrived. `elsewhere`: axes that an order
+        certainly sends to another angle.
         """
         past_s, self._looked_s = now_s - self._looked_s, now_s
         each_axis = [notice.text for axis in Axis for notice in status.axis(axis).notices]
@@ -115,7 +116,7 @@ class Silence:
                 self._lasting.remove(each)
                 continue
             truth = axes[0 if each.axis == "azimuth" else 1]
-            # Bad readings are counted: of those that come late there are fewer.
+            # The box counts bad readings. In a late cycle there are fewer readings than the time suggests.
             more_s = min(past_s, PERIOD_S) if each.rule.shows is Shows.AS_READ else past_s
             wanted = ordered, truth.name in elsewhere
             each.seen_s = each.seen_s + more_s if self._to_be_seen(each, truth, wanted, there) else 0.0
@@ -135,7 +136,7 @@ class Silence:
         return held or not shown <= fault.before
 
     def _most_s(self, fault: _Lasting) -> float:
-        """A contact that stands still shows nothing before three of its periods."""
+        """The longest time until the message. A contact that does not change shows nothing for three of its periods."""
         case = self._cases[fault.axis]
         waits = case.counts and fault.rule.shows in (*CURRENT, Shows.WITHOUT_CURRENT)
         return max(fault.rule.within_s, case.patience_s) if waits else fault.rule.within_s
@@ -165,5 +166,5 @@ class Silence:
 
 
 def _of_the_box(status: Status) -> set[str]:
-    """Its notices, but those about senders: they tell no fault."""
+    """The notices of the box, without those about senders, which report no fault."""
     return {text for text in status.notices if not text.startswith(IGNORED)}

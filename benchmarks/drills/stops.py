@@ -17,26 +17,27 @@ class Storm(Enum):
 
     NONE = auto()
     ASKED = auto()
-    """It may be under way."""
+    """The storm park may be under way."""
     HOLDS = auto()
-    """It is under way for certain, and holds every other order of a person back."""
+    """The storm park is certainly under way, and holds back every other order of a person."""
     ENDED = auto()
-    """Its way to the park position has ended. It still holds every other order of a person back."""
+    """The way to the park position has ended. The storm park still holds back every other order of a person."""
     KEPT_OVER_RESTART = auto()
-    """The stop in force is a storm park from before a restart: it is not driven on, but may be ordered anew."""
+    """The stop in force is a storm park from before a restart: the antenna does not go on by itself, but a person may
+    order a storm park again."""
 
 
 class Stops:
     def __init__(self) -> None:
         self.latched = False
-        """A person has stopped it, and has not let it go."""
+        """A person has stopped the antenna, and has not released it since."""
         self.acknowledged_s = 0.0
         """Time of the last stop of both axes or the last release: both acknowledge faults."""
         self.released_s = 0.0
-        """When a person last let it go. A restart of the program does not count."""
+        """When a person last released the antenna. A restart of the program does not count."""
         self.storm = Storm.NONE
         self._stopped_s = math.inf
-        """When a person last stopped it, or parked it before a storm."""
+        """When a person last stopped the antenna, or ordered a storm park."""
 
     @property
     def storm_under_way(self) -> bool:
@@ -45,7 +46,7 @@ class Stops:
 
     @property
     def storm_holds(self) -> bool:
-        """Whether a storm park certainly holds every other order of a person back."""
+        """Whether a storm park certainly holds back every other order of a person."""
         return self.storm in (Storm.HOLDS, Storm.ENDED)
 
     def latch(self, now_s: float) -> None:
@@ -59,12 +60,12 @@ class Stops:
             self.storm = Storm.NONE
 
     def by_link(self, now_s: float) -> None:
-        """It ends the way to the park position, and no more."""
+        """A stop from a link ends the way to the park position only: the stop of the storm park stays latched."""
         self.take()
         self.acknowledged_s = now_s
 
     def take(self) -> None:
-        """Of a storm park the stop remains."""
+        """The way of a storm park ends, and its stop stays latched."""
         self.latched = self.latched or self.storm_holds
 
     def end_motion(self) -> None:
@@ -83,12 +84,12 @@ class Stops:
         self.storm, self._stopped_s = Storm.HOLDS if holds else Storm.ASKED, now_s
 
     def release(self, now_s: float, *, pressed: bool) -> None:
-        """A person lets it go. `pressed`: the stop button of the panel still holds it."""
+        """A person releases the antenna. `pressed`: the panel's stop button is still pressed in, and holds it."""
         self._free(pressed=pressed)
         self.acknowledged_s = self.released_s = now_s
 
     def restart(self, now_s: float, *, pressed: bool) -> None:
-        """The program ends. A stop that it had time to take goes on in the new one."""
+        """The program ends. A stop that the program had time to store holds in its next run."""
         stopped = (self.latched or self.storm_holds) and now_s - self._stopped_s > TAKEN_S
         parked = stopped and not self.latched
         self._free(pressed=pressed)

@@ -1,8 +1,7 @@
 """Stories: an order, a mishap, a stop and the next order within seconds of each other, as things go wrong on a mast.
 
-Events at moments that know nothing of each other seldom meet within the second in which a bug shows. A story puts them
-one after the other, with pauses from none to a few seconds. Knows how things follow each other. Does not know what is
-right or wrong.
+Events at independent random moments seldom meet within the second in which a bug shows. A story puts them one after
+the other, with pauses from none to a few seconds. Knows the order of events. Does not judge.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from benchmarks.drills.script import CLOCK, COMMON_LINKS, PANEL, PEOPLE, PROGRAM
 
 PAUSES_S = (0.0, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0)
 INSISTS_S = (20.0, 60.0, 90.0)
-"""For how long a program repeats its order once a second, whatever happens."""
+"""For how long a program repeats its order, once a second."""
 WAYS = (("cw", "ccw"), ("up", "down"))
 TURNS_S = 1.3
 """A mode switch counts when it has stood still for a second."""
@@ -38,7 +37,7 @@ class Story:
         self._axis = chance.randrange(2)
         self._way = chance.randrange(2)
         self._mode = ""
-        """Of the panel; empty: as an earlier story has left it."""
+        """The position of the panel's mode switch; empty: as an earlier story has left it."""
         self._tell()
 
     def _tell(self) -> None:
@@ -124,7 +123,7 @@ class Story:
             self.ends_s += self._chance.choice((0.5, 2.0, 5.5))
 
     def _set_up(self) -> None:
-        """Who sets an axis up drives it to its nearer stop, presses again to be sure, and turns back at once."""
+        """The set-up of an axis: a person drives it to the nearer stop, presses again to be sure, and turns back."""
         axis = BOTH.index(self._mast.commissioning)
         top_deg, start_deg = self._mast.top_deg[axis], self._mast.start_deg[axis]
         there, back = WAYS[axis] if start_deg > top_deg / 2.0 else WAYS[axis][::-1]
@@ -146,20 +145,20 @@ class Story:
             self.ends_s += TURNS_S
 
     def _turn(self, mode: str) -> None:
-        """Turn the panel's mode switch, unless it is there."""
+        """Turn the panel's mode switch, unless it already has that position."""
         if mode != self._mode:
             self._mode = mode
             self._add(PANEL, "mode", mode)
             self.ends_s += TURNS_S
 
     def _insist(self, aim_deg: list[float]) -> None:
-        """A program that tracks repeats its order; what happens next happens meanwhile."""
+        """A program that tracks repeats its order; the next events of the story come meanwhile."""
         count = round(self._chance.choice(INSISTS_S))
         self._add(self._link, "stream", *aim_deg, 0.0, 0.0, 1.0, float(count))
         self.ends_s += self._chance.choice((0.5, 5.0))
 
     def _track(self) -> None:
-        """A person tracks; what happens next may happen while the plan is computed."""
+        """A person tracks; the next events of the story may come while the plan is computed."""
         chance = self._chance
         self._add(CLOCK, "plans", chance.choice((0.1, 1.0, 3.0, 10.0)))
         if chance.random() < 0.05:
@@ -171,7 +170,7 @@ class Story:
             self._add(CLOCK, "set", chance.choice((-30.0, 0.5, 10.0)))
 
     def _recognised(self) -> None:
-        """A program sends the directions of a target that the box recognises, and plans, while things happen."""
+        """A program sends the directions of a target. The box recognises it and plans, while the story goes on."""
         words, every_s = draw_arc(self._chance, self.ends_s), self._chance.choice((0.5, 1.0, 2.0))
         self._add(CLOCK, "plans", self._chance.choice((0.1, 1.0, 3.0)))
         self._add(self._link, "arc", words, every_s, round(self._chance.choice((20.0, 60.0, 90.0)) / every_s))
@@ -180,13 +179,13 @@ class Story:
         self._pause()
 
     def _waver(self) -> None:
-        """A hand that goes to and fro."""
+        """A program jogs to and fro."""
         for turn in range(8):
             self._add(self._link, "jog", WAYS[self._axis][turn % 2])
             self.ends_s += self._chance.choice((0.03, 0.06, 0.1, 0.3))
 
     def _far(self, axis: int) -> float:
-        """An angle far along the way, near the end of the range."""
+        """An angle near the end of the range, in the direction of this story."""
         top_deg = self._mast.top_deg[axis]
         if axis != self._axis:
             return round(self._chance.uniform(0.0, top_deg))

@@ -1,7 +1,7 @@
-"""What the box must tell of each fault of the simulators: within how long, and when there is anything to be seen.
+"""For each fault of the simulators: within how long the box must report it, and when the fault can be seen at all.
 
-Knows every name of every kind of rotor, without its axis: a rule, or the reason why no message is due. Does not listen
-to the box; `silence` does.
+Knows the name of each fault of each kind of rotor, without its axis: a rule, or the reason why no message is due. Does
+not listen to the box; `silence` does.
 """
 
 from __future__ import annotations
@@ -16,25 +16,25 @@ SILENT_S = 5.0
 
 
 class Shows(Enum):
-    """When a fault can be seen at all."""
+    """When a fault can be seen."""
 
     AT_ONCE = auto()
     ORDERED = auto()
-    """Only with an order in force is the part in use."""
+    """Only while an order is in force: else the part is not used."""
     ELSEWHERE = auto()
-    """Only while an order for certain sends its axis elsewhere."""
+    """Only while an order certainly sends its axis to another angle."""
     DRIVEN = auto()
     """Only while the motor has current."""
     TURNED = auto()
-    """Only while its motor turns it, either way."""
+    """Only while the motor turns the axis, in either direction."""
     PRESSED = auto()
-    """Only while its motor has current and it stands."""
+    """Only while the motor has current and the axis stands."""
     WITHOUT_CURRENT = auto()
-    """Only while it turns at half of its speed, and its relay is open."""
+    """Only while the axis turns at half of its speed or faster, and its relay is open."""
     BLOWN = auto()
-    """The same, at a fifth of its speed."""
+    """Only while the axis turns at a fifth of its speed or faster, and its relay is open."""
     AS_READ = auto()
-    """With each bad reading or answer: also at rest."""
+    """With each bad reading or answer, also at rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,23 +42,23 @@ class Rule:
     shows: Shows
     within_s: float = SILENT_S
     every: int = 0
-    """Only where at least each so many-th reading or answer is bad it need be told. 0: it takes no number."""
+    """A message is due only if at least each `every`-th reading or answer is bad. 0: the fault has no such number."""
     usual: int = 0
-    """The same number of a fault that is begun without one."""
+    """The simulator's own number, for a fault that is begun without one."""
     shared: bool = False
-    """The part serves both axes: it may be told at either."""
+    """The part serves both axes: the message may come at either axis."""
     heals: bool = False
     """A stop, a release or a new start of the program ends it."""
     felt: bool = False
-    """Only where something comes back from the axis."""
+    """A message is due only if the box has readings of the axis."""
     measured: bool = False
-    """Only where the angle is measured: a contact tells neither a way nor an angle."""
+    """A message is due only if the angle is measured: a counting contact shows neither a direction nor an angle."""
 
 
 AT_ONCE, DRIVEN = Rule(Shows.AT_ONCE), Rule(Shows.DRIVEN, felt=True)
 BAD, GAPS = Rule(Shows.AS_READ, every=20, usual=10), Rule(Shows.AS_READ, every=60, usual=60)
 BUS = Rule(Shows.AS_READ, within_s=10.0, every=40, usual=20, shared=True)
-"""By chance, and of the transfers: a reading takes some."""
+"""The simulator spoils transfers of the bus at random, and a reading takes several transfers."""
 SEEN: Mapping[str, Rule] = {
     # pots and their converter
     "pot-open": AT_ONCE,
@@ -117,11 +117,11 @@ NO_MOTION = "no part of what moves the antenna"
 ADAPTER = "the drills speak to the controllers without an adapter's lines"
 UNTOLD: Mapping[str, str] = {
     "pot-jumps": RIDDEN_OUT,
-    "pot-drifts": "no reading tells a drift: the angle is wrong by it, and nothing else",
-    "motor-slow": "it arrives later; a motor that is on for longer than the travel takes is told",
-    "pulses-missed": "told as a lost count, which may take five closures",
+    "pot-drifts": "no reading shows a drift: the angle is wrong by it, and nothing else",
+    "motor-slow": "it arrives later; a motor that is on for longer than the travel takes is reported",
+    "pulses-missed": "reported as a lost count, which may take five closures",
     "pulses-doubled": "a contact cannot close again so soon: the second closure is not counted",
-    "switch-open": "a broken wire is a switch that is reached: told when its way is ordered",
+    "switch-open": "a broken wire reads as a reached limit: reported when its direction is ordered",
     "chip-dips": BY_ITSELF,
     "board-dips": BY_ITSELF,
     "board-gaps": "over before a servo moves on",
@@ -135,13 +135,13 @@ UNTOLD: Mapping[str, str] = {
     "lines-late": ADAPTER,
     **{f"{part}-{how}": NO_MOTION for part in ("lcd", "compass") for how in ("gone", "noisy", "gaps")},
 }
-"""Why no message is due: the fault cannot be seen, or moves nothing."""
+"""For each fault without a message, the reason: the fault cannot be seen, or the part moves no motor."""
 PANEL = "panel-"
-"""What is wrong with a panel moves no motor: the tests of the panel judge its messages."""
+"""A fault of a panel moves no motor: the tests of the panel judge its messages."""
 
 
 def plain(name: str) -> str:
-    """The fault without its axis, its relay and the number of how often."""
+    """The name of the fault without its axis, its relay and its number."""
     name = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
     if name.startswith("relay-welded"):
         return "relay-welded"
@@ -149,7 +149,7 @@ def plain(name: str) -> str:
 
 
 def rule(name: str) -> Rule | None:
-    """What must be told of the simulators' fault `name`; None: nothing, or not so often."""
+    """The rule for the simulators' fault `name`; None: no message is due, or bad readings are too rare for one."""
     found = SEEN.get(plain(name))
     if found is not None and found.every:
         _, _, number = name.partition(":")

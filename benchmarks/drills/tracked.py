@@ -1,9 +1,9 @@
-"""Which flights of the box's own may be in force: what a person tracks, `[[sky.follow]]`, a recognised stream.
+"""Which flights of the box's own may be in force: a target that a person tracks, `[[sky.follow]]`, a recognised stream.
 
-Knows what ends them by the rules of docs/safety.md and docs/tracking.md: any stop, whether a plan is flown or still
-computed; another sender that takes the antenna; `track off`. Where a flight leads is not judged, only whether there may
-be one. A `resume` ends a flight only where it releases a fault of the box, and no judge asks the box: a flight in force
-then stays excused until a stop, another target or `track off` ends it. Does not know passes.
+Knows which orders end them by the rules of docs/safety.md and docs/tracking.md: any stop, during a flight or while its
+plan is computed; another sender that takes the antenna; `track off`. The judges do not ask where a flight leads, only
+whether a flight may be in force. A `resume` ends a flight only if the box has a fault, and no judge asks the box: so a
+flight stays excused after a `resume`, until a stop, another target or `track off` ends it. Does not know passes.
 """
 
 from __future__ import annotations
@@ -15,15 +15,16 @@ from benchmarks.drills.script import LINKS, Event
 
 TRACK, FOLLOW = "track", "follow"
 RESTS_S = 600.0 - 1.0
-"""So long after a stop the plan of many passes is not flown."""
+"""The plan of many passes is not flown for this time after a stop."""
 QUIET_S = 10.5
-"""A link that has been quiet for so long is silenced by none."""
+"""A link that has sent no order for this time is not silenced any more."""
 TAKES_S = 1.0
-"""An order that came so soon after `track` may have come before the antenna was its own."""
+"""An order this soon after `track` may have come before the tracker had the antenna."""
 
 
 class Tracked:
-    """`axes`: the orders in force, where these flights are entered too. An axis that `lacks` its set-up flies none."""
+    """`axes`: the orders in force, into which these flights are entered too. `lacking`: the axis that was never set up;
+    it takes part in no flight."""
 
     def __init__(
         self, axes: dict[str, AxisOrders], ranges: dict[str, Ranges], *, follows: bool, lacking: str = ""
@@ -32,28 +33,28 @@ class Tracked:
         self._ranges = ranges
         self._follows_at_start = self._follows = follows
         self._asked_s: float | None = None
-        """When a person asked to track; None: that has ended."""
+        """When a person asked to track; None: nothing is tracked."""
         self._before: set[str] = set()
-        """Whose orders were in force then: they may go on sending until the plan is there."""
+        """The senders whose orders were in force then: they may send on until the plan is ready."""
         self._rests_until_s = -math.inf
         self._heard_s: dict[str, float] = {}
         self.recognised: set[str] = set()
         """Programs whose streams may be flown as planned, also when they go on after a stop."""
 
     def begin_anew(self) -> None:
-        """The program ends, and begins with what its configuration follows."""
+        """The program starts again: only the targets of its configuration are followed."""
         self._asked_s, self._follows, self._rests_until_s = None, self._follows_at_start, -math.inf
         self._heard_s.clear()
         self.recognised.clear()
 
     def stopped(self, now_s: float, asked_before_s: float = math.inf) -> None:
-        """A stop, a release, the mode switch: no flight that was asked for before begins by itself afterwards."""
+        """A stop, a release or a turn of the mode switch: no flight that was requested before begins afterwards."""
         if self._asked_s is not None and self._asked_s < asked_before_s:
             self._asked_s = None
         self._rests_until_s = now_s + RESTS_S
 
     def note(self, event: Event, *, takes: bool) -> None:
-        """`takes`: nothing known holds back an order of a link."""
+        """Note one order. `takes`: nothing holds back an order of a link."""
         match event.what:
             case "track" if event.text(0) == "off":
                 self._end(event.at_s)
@@ -77,7 +78,7 @@ class Tracked:
             self._heard_s[event.who] = event.at_s
 
     def keep(self, now_s: float) -> None:
-        """The flights that go on, or may begin, are in force."""
+        """Enter the flights that may be in force now."""
         for orders in self._axes.values():
             if self._asked_s is not None:
                 orders.goals.setdefault(TRACK, Goal(said_s=now_s))
@@ -98,7 +99,8 @@ class Tracked:
                 orders.goals[event.who] = Goal(said_s=event.at_s)
 
     def _is_new(self, event: Event) -> bool:
-        """Whether this aim certainly takes the antenna: of a link that was quiet and did not move it, within range."""
+        """Whether this aim certainly takes the antenna: its link was quiet and did not move the antenna, and the aim is
+        within range."""
         quiet = event.at_s - self._heard_s.get(event.who, -math.inf) > QUIET_S
         late = self._asked_s is None or event.at_s > self._asked_s + TAKES_S
         spans = self._ranges["azimuth"], self._ranges["elevation"]

@@ -1,4 +1,4 @@
-"""What tracks the sky in the box of a drill: the real tracker and follower, in a thread that runs only in its turn.
+"""Tracking in the box of a drill: the real tracker and follower, in a thread that runs only in its turn.
 
 Knows that a plan takes a while, in which the world goes on, and that it may fail. So that a drill is the same each
 time, the thread and the drill never run at once. Does not know what an order does.
@@ -47,7 +47,7 @@ class LatePlanner:
         self.fails = False
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
-        """Raises RuntimeError, as the two below."""
+        """Raises RuntimeError while `fails`, as the other plans do."""
         return self._late(self._arcs.plan(wanted, antenna, now))
 
     def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
@@ -67,14 +67,15 @@ class LatePlanner:
 
 
 class DrilledTracking:
-    """`turn` whenever the world has gone on, `end` before the box is thrown away. `begun_s`: of the drill."""
+    """Call `turn` after each step of the world, and `end` before the box is thrown away. `begun_s`: the clock's time
+    when the drill began."""
 
     def __init__(
         self, config: Config, loop: ControlLoop, mount: Mount, clock: Callable[[], float], begun_s: float
     ) -> None:
         self._clock = clock
         self.ahead_s = -begun_s
-        """What is added to the clock to have UTC, which counts from the beginning of the drill."""
+        """Added to the clock it gives the drill's UTC, which begins at 0 with the drill."""
         self.planner = LatePlanner(self._wait)
         self._box = TrackedBox(config, loop, mount)
         self.tracker = Tracker(Arcs(), self.planner, self._box, lambda: True)
@@ -90,11 +91,11 @@ class DrilledTracking:
         self._thread.start()
 
     def recognise(self, source: Source, words: str) -> None:
-        """What this source sends has been recognised: its flight is planned, and comes late too."""
+        """The orders of this source have been recognised: plan the flight. This plan comes late too."""
         self._recognised.append((source, words))
 
     def turn(self) -> None:
-        """Let the thread run until it waits again. Raises what it has raised."""
+        """Let the thread run until it waits again. Raises the thread's exception, if any."""
         if self._clock() < self._due_s or not self._thread.is_alive():
             return
         self._mine.release()
@@ -103,7 +104,7 @@ class DrilledTracking:
             raise self._failure
 
     def end(self) -> None:
-        """The process of the plans ends first: none that is under way is flown."""
+        """End the thread. A plan that is being computed is given up, and not flown."""
         self._ending, self._due_s = True, self._clock()
         self.turn()
         self._thread.join()
@@ -139,7 +140,7 @@ class DrilledTracking:
         return Now(self._clock() + self.ahead_s, self._clock())
 
     def _wait(self, seconds: float) -> None:
-        """The world goes on for so long."""
+        """Let the world go on for `seconds`."""
         self._due_s = self._clock() + seconds
         self._back.release()
         self._mine.acquire()

@@ -1,7 +1,7 @@
 """Troubles of the world beyond the simulators' own faults: readings that are spoilt, contacts that weld, slow motors.
 
-Knows how to bring each about on the simulated parts, and how to end it. Does not know when. A contact can weld only
-while it is closed, so a weld waits for that.
+Knows how to begin and end each trouble on the simulated parts. Does not know when. A contact can weld only while it is
+closed, so a weld waits until then.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SUPPLY_V = 3.3
 
 
 class Wiper:
-    """A pot's wiper on its way to the converter. Each field is a trouble; 0 or empty is none."""
+    """A pot's wiper with its troubles: calling it gives volts. Each public field is a trouble; 0 or False: none."""
 
     def __init__(self, volts: Callable[[], float], degree_v: float, clock: Callable[[], float], seed: str) -> None:
         self._volts = volts
@@ -30,9 +30,9 @@ class Wiper:
         self._count = 0
         self._last_v = 0.0
         self.every = 0
-        """Each so many readings is bad."""
+        """Each `every`-th reading is bad; 0: none."""
         self.bad = "zero"
-        """What a bad reading shows: zero, full, far, near; last: the one before."""
+        """The value of a bad reading: zero, full, far, near; or last, the good reading before it."""
         self.noise_deg = 0.0
         self.drift_dps = 0.0
         self.drift_most_deg = 0.0
@@ -79,7 +79,7 @@ class Troubles:
         self._clock = clock
         self.wipers: dict[str, Wiper] = {}
         self._waiting: dict[tuple[str, int], None] = {}
-        """Contacts that weld when they close next."""
+        """The contacts that weld when they next close, by axis and direction."""
         for name, volts in list(rotor.wipers.items()):
             self.wipers[name] = rotor.wipers[name] = Wiper(volts, 0.9 * SUPPLY_V / 360.0, clock, f"{seed} {name}")
 
@@ -137,7 +137,7 @@ class Troubles:
         setattr(motor, {"pace": "pace", "push": "pushed", "sticks": "sticks_s"}[what], share)
 
     def _hold_up(self, axis: str, room_deg: float) -> None:
-        """From now on something holds the axis so far from here, both ways; infinitely far: nothing but its stops."""
+        """From now on an obstacle holds the axis `room_deg` from here, in both directions. Infinite: no obstacle."""
         if (motor := self.motor(axis)) is None:
             return
         motor.advance(self._clock())

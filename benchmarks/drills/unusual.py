@@ -18,7 +18,7 @@ REPLACED = ("gs232a", "easycomm2", "easycomm3", "pstrotator")
 ORDERS_MOST = 6
 MCP3208 = {"adc": {"kind": "mcp3208"}}
 TURN_DEG = (10.0, 350.0)
-"""An AS5600 goes round once: the range of its axis ends before its reading jumps."""
+"""An AS5600 reads one turn: the range of its axis must end before the reading jumps."""
 AS5600 = {
     "azimuth": {
         "min_deg": TURN_DEG[0],
@@ -37,7 +37,7 @@ SECTORS = (2, 2, 3)
 
 
 def sensed(chance: random.Random, mast: Mast) -> Mast:
-    """Another converter, or chips that need none, in place of what the shipped file has."""
+    """The same box with another converter, or with chips that need no converter."""
     if mast.rotor.kind != "relay-pot" or mast.commissioning or chance.random() >= SENSORS_SHARE:
         return mast
     if chance.random() < 0.5:
@@ -72,7 +72,7 @@ def fenced(chance: random.Random, mast: Mast) -> Mast:
         for axis in range(2):
             wide_deg = chance.choice((5.0, 10.0, 20.0))
             low_deg = float(round(chance.uniform(0.0, mast.top_deg[axis] - wide_deg)))
-            if not found and axis == number % 2:  # this axis would turn from its park position into it
+            if not found and axis == number % 2:  # this axis would turn from the park position into the sector
                 beside_deg = round(park_deg[axis]) + chance.choice((ROOM_DEG + 1.0, -ROOM_DEG - 1.0 - wide_deg))
                 low_deg = min(max(0.0, beside_deg), mast.top_deg[axis] - wide_deg)
             elif not found:
@@ -91,7 +91,7 @@ def fenced(chance: random.Random, mast: Mast) -> Mast:
 
 
 def relinked(chance: random.Random, events: list[Event]) -> list[Event]:
-    """One of the programs is of another family."""
+    """The same events, with one of the programs replaced by a program of another protocol family."""
     used = sorted({event.who for event in events if event.who in REPLACED})
     if not used or chance.random() >= LINKS_SHARE:
         return events
@@ -100,7 +100,7 @@ def relinked(chance: random.Random, events: list[Event]) -> list[Event]:
 
 
 def tabled(chance: random.Random, events: list[Event]) -> list[Event]:
-    """What a person tracks comes as a table of its directions, in seconds from then."""
+    """The same events, with some tracked arcs replaced by timed tables of their directions."""
     return [
         replace(event, args=(_table(event),))
         if event.what == "track" and event.text(0).startswith("arc") and chance.random() < TABLES_SHARE
@@ -122,7 +122,7 @@ def _table(event: Event) -> str:
 
 
 def prolonged(chance: random.Random, mast: Mast, events: list[Event], seconds: float) -> tuple[list[Event], float]:
-    """Hours in which little happens: what lasts has time to show."""
+    """Sometimes hours follow in which little happens, so that a slow fault has time to show."""
     if chance.random() >= HOURS_SHARE:
         return events, seconds
     ends_s = chance.uniform(1.0, 3.0) * 3600.0

@@ -1,7 +1,7 @@
-"""The truth of the simulated world, axis by axis: what turns, what feeds it, and where the stops are.
+"""The truth of the simulated world, axis by axis: how the shaft turns, what feeds its motor, and where the stops are.
 
-Knows the simulated rotors by their parts. Never asks the box. `coil` is what the box itself commands; `power` is the
-current that turns the shaft, a welded contact's included. Angles are on the rotor's own scale.
+Knows the simulated rotors by their parts. Never asks the box. `coil` is the direction that the box commands; `power` is
+the direction of the current that turns the shaft, also through a welded contact. Angles are on the rotor's own scale.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from firmware_sim.rotors.servo import SimServoRotor
 
 AT_STOP_DEG = 1e-3
 STANDS_DPS = 0.02
-"""Slower than this a shaft stands."""
+"""A shaft slower than this stands."""
 
 
 @dataclass(slots=True)
@@ -31,9 +31,9 @@ class AxisTruth:
 
     name: str
     full_dps: float
-    """How fast its motor is at its best, whatever the file says."""
+    """The true full speed of its motor, which the configuration may give wrongly."""
     coasts_s: float
-    """How long it takes from full speed to a standstill."""
+    """Seconds from full speed to a standstill."""
     stop_low_deg: float = -math.inf
     stop_high_deg: float = math.inf
     shaft_deg: float = 0.0
@@ -46,22 +46,23 @@ class AxisTruth:
     """A hand or the wind turns it."""
     shorted_s: float = 0.0
     told_dps: float = math.inf
-    """How fast a motor that follows a set point is told to turn; infinite: it is told no speed."""
+    """The speed of the set point that the motor follows; infinite: its set point has no speed."""
     sent_deg: float = math.nan
-    """Where a control box was sent; not a number: no such box drives it."""
+    """The angle to which a control box was sent; NaN: no control box drives the axis."""
     relayed: bool = False
     """Relays of the box itself feed its motor."""
 
     @property
     def at_stop(self) -> int:
-        """The stop at which it stands: -1, 1; 0: at none."""
+        """The stop at which the shaft stands: -1 the low one, 1 the high one, 0 none."""
         if self.shaft_deg >= self.stop_high_deg - AT_STOP_DEG:
             return 1
         return -1 if self.shaft_deg <= self.stop_low_deg + AT_STOP_DEG else 0
 
     @property
     def stands(self) -> bool:
-        """It does not turn though it is told to: a set point that creeps, as at the end of a move, is no such order."""
+        """Whether the shaft stands though its set point moves. A set point that creeps, as at the end of a move, does
+        not count as moving."""
         return abs(self.speed_dps) < STANDS_DPS <= self.told_dps
 
 
@@ -102,7 +103,7 @@ class World:
 
 
 def _eye(rotor: SimRotor, place: int, name: str) -> tuple[AxisTruth, Look]:
-    """What looks at one axis of this kind of rotor."""
+    """The truth of one axis of this kind of rotor, and the function that brings it up to date."""
     match rotor:
         case SimRelayPotRotor() | SimRelayPulseRotor():
             motor = (rotor.azimuth, rotor.elevation)[place].motor
@@ -153,7 +154,7 @@ def _see_box(truth: AxisTruth, box: SimBox) -> None:
 
 def _see_servo(truth: AxisTruth, servo: SimServo) -> None:
     before_deg, truth.shaft_deg = truth.shaft_deg, servo.shaft_deg()
-    # A servo has no line that tells its current: it works while it moves under its pulse.
+    # A simulated servo does not report its current: it counts as powered while it moves under its pulse.
     turned_deg = truth.shaft_deg - before_deg
     truth.pushed = servo.pushed_dps != 0.0
     truth.power = 0 if truth.pushed or abs(turned_deg) < AT_STOP_DEG else (1 if turned_deg > 0 else -1)

@@ -1,7 +1,7 @@
 """Runs the campaign on a copy of the source with one planted bug in it: what it finds, and after how many hours.
 
 Knows folders and processes. The checkout itself is never changed. A find counts only if its script shows nothing on the
-source without the bug: else the campaign has found a bug that nobody planted, and the hunt goes on.
+source without the planted bug: else the campaign has found a real bug, and the hunt goes on.
 """
 
 from __future__ import annotations
