@@ -46,7 +46,7 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
 
 
 def _uncalibrated(order: Order, status: Status) -> Refusal | None:
-    """An order is refused when every axis that it moves is uncalibrated. One calibrated axis is enough to admit it."""
+    """The refusal of an order whose axes are all uncalibrated, else None: one calibrated axis is enough to admit it."""
     axes = _axes_of(order)
     missing = [
         f"{axis.value} needs {status.axis(axis).uncalibrated}" for axis in axes if status.axis(axis).uncalibrated
@@ -55,7 +55,7 @@ def _uncalibrated(order: Order, status: Status) -> Refusal | None:
 
 
 def only_faulted(order: Order, status: Status) -> bool:
-    """Whether the order moves axes, and a fault holds every one of them. One axis that can move is enough."""
+    """Whether the order moves axes, and a fault holds every one of them."""
     axes = _axes_of(order)
     return bool(axes) and all(status.axis(axis).fault for axis in axes)
 

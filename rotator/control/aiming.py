@@ -1,7 +1,7 @@
 """What both axes are asked to point at, and the goals that follow from it.
 
 Knows the latest order as it was asked, the nudges of the panel, and both axes. Gives each axis its goal. Knows nothing
-of who asks, of stops that latch, or of faults.
+of senders, of stops that latch, or of faults.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ class Aiming:
         self._nudges = Nudges(self._mount.elevation.max_deg)
         self._round = GoingRound(mount, axes)
         self._asked: tuple[Aim, float] | None = None
-        """The order in force, without the nudges, and when it came; None: there is none."""
+        """The order in force, without the nudges, and its moment; None: no order is in force."""
         self._flight: Flight | None = None
-        """The pass that is flown as planned; None: there is none."""
+        """The pass that is flown as planned; None: no pass is flown."""
 
     @property
     def wanted(self) -> Aim:
@@ -52,7 +52,7 @@ class Aiming:
         return self._flight.flown if self._flight else None
 
     def point_at(self, asked: Aim, now_s: float) -> None:
-        """Raises Unreachable; then everything is as it was."""
+        """Point at this direction from now on. Raises Unreachable; then everything is as it was."""
         wanted = self._pointing.wanted
         by_axes = self._named_by_axes() if asked.place and None in (asked.azimuth_deg, asked.elevation_deg) else None
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
@@ -101,7 +101,8 @@ class Aiming:
         self._fly_on(now_s)
 
     def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> bool:
-        """Fly a planned pass in place of a stream, where the order in force is one of that stream. Returns whether.
+        """Fly a planned pass in place of a stream, if the order in force came from that stream. Returns whether it is
+        flown.
 
         Raises Unreachable; then everything is as it was.
         """
@@ -116,7 +117,10 @@ class Aiming:
         return True
 
     def take_turn(self, order: TakeTurn, now_s: float) -> bool:
-        """Follow the stream on this turn, where its latest order is in force as it came. Returns whether."""
+        """Follow the stream on this turn of azimuth, if the stream's latest order is in force unchanged.
+
+        Returns whether the turn was taken.
+        """
         if self._flight is not None or self._asked is None:
             return False
         asked, asked_s = self._asked
@@ -128,7 +132,7 @@ class Aiming:
         return True
 
     def flies_on(self, source: Source, aim: Aim, now_s: float) -> bool:
-        """Whether this order is one of the stream in whose place a pass is flown, which then goes on."""
+        """Whether the pass that is flown in place of a stream goes on: this order belongs to that stream."""
         if self._flight is None or self._flight.following is None:
             return False
         if not self._flight.following.agrees(source, aim, now_s):
@@ -185,7 +189,7 @@ class Aiming:
         self._pointing.end_stream()
 
     def halt(self, axes: tuple[Axis, ...]) -> None:
-        """Stop these axes and forget what they were asked for."""
+        """Stop these axes and forget their orders."""
         for axis in axes:
             self._axes[axis].halt()
         self._round.stop(axes)

@@ -18,7 +18,7 @@ AGREE_DEG = 4.0
 LET_GO_S = 0.5
 """A held jog switch sends orders closer together than this. After a stop they have no effect until it is released."""
 KNOB_S = 1.0
-"""The longest time from the turn of a knob to its order. An order sooner after a stop was turned before the stop."""
+"""The longest time from the turn of a knob to its order. If an order follows a stop sooner, its turn was earlier."""
 MOST_SHOWN = 4
 """The most ignored sources that are named at a time, the latest first."""
 SWITCH_HELD = "a stop came while the jog switch was held: release the switch first"
@@ -58,7 +58,7 @@ class Authority:
         """Time of the last stop by another source; later, of the last jog order while that switch is still held."""
         self._senders = Senders(agree_deg)
         self._ignored: dict[str, tuple[str, float]] = {}
-        """By the name of a source: why its latest order had no effect, and when that was. The latest is the last."""
+        """By the name of a source: why its latest order had no effect, and the moment. In order of time."""
 
     def stopped(self, source: Source, now_s: float, *, latch: bool) -> None:
         """`source` stopped the antenna. Other sources that send have no effect until they pause or reconnect."""

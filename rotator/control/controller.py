@@ -216,7 +216,7 @@ class Controller:
                 self._movements.begin(order, source, now_s)
 
     def _take_allowed(self, source: Source, order: Park | Confirm | Calibrate | Take, now_s: float) -> None:
-        """Orders that need a right and yet are not orders of a sender that moves the antenna. Raises Refused."""
+        """Carry out an allowed order that does not make its sender the one that moves the antenna. Raises Refused."""
         match order:
             case Park():
                 self._movements.stop(BOTH)

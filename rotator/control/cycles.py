@@ -1,4 +1,4 @@
-"""The watch over the control loop itself: a motor must not run for long while nobody looks at it.
+"""The watch over the control loop itself: a motor must not run for long without a control cycle.
 
 Knows when the cycles began, and their period. Knows no reading and no motor.
 """

@@ -1,7 +1,8 @@
 """The last line before forbidden sectors: every command of both axes passes here on its way to the drives.
 
-Whatever the goal is (a target, a jog, the way to an end stop), a motor runs only where the box that both axes may sweep
-before the next command can end it meets no sector. Knows both axes as what they may sweep. Knows no goal and no order.
+For every goal (a target, a jog, the way to an end stop) a motor runs only where the box that both axes may sweep before
+the next command can end the motion meets no sector. Knows the angles that both axes may sweep. Knows no goal and no
+order.
 """
 
 from __future__ import annotations

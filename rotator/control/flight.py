@@ -47,7 +47,7 @@ class Flight:
             beyond_beam=order.beyond_beam,
             table=order.table,
         )
-        """For displays."""
+        """The pass, as displays show it."""
         self._given: dict[Axis, int] = {}
         """The number of the step, or of the piece of path, that each axis has."""
 

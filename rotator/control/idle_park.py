@@ -20,14 +20,14 @@ class IdlePark:
         self._busy_s: float | None = None
         """When the last order came, or its motion was last seen; None: the next order is awaited."""
         self._carries_out = False
-        """It was busy with that order when this was asked last."""
+        """The antenna was busy with that order at the latest call of `due`."""
 
     def ordered(self, now_s: float) -> None:
         """An order moves the antenna."""
         self._busy_s = now_s
 
     def ended(self) -> None:
-        """What was ordered has ended otherwise: by a stop, a fault, a lost link, or because the antenna parks."""
+        """The order has ended early: by a stop, a fault, a lost link, or because the antenna parks."""
         self._busy_s, self._carries_out = None, False
 
     def due(self, now_s: float, *, busy: bool) -> bool:
@@ -35,7 +35,7 @@ class IdlePark:
         if self._after_s <= 0 or self._busy_s is None:
             return False
         if busy:
-            # However late the cycles come, what was busy with the order and still is has not finished it.
+            # Also after a late cycle: an antenna that was busy with the order, and still is, has not finished it.
             self._carries_out = self._carries_out or now_s - self._busy_s <= CONTINUES_S
             if self._carries_out:
                 self._busy_s = now_s

@@ -1,9 +1,10 @@
 """Who jogs which axis, and for how long: a jog without a time ends with the connection that ordered it.
 
 An axis that is not commissioned has no limits that could stop it, and a program may press a thousand times. So the
-presses of a link turn it for two seconds at most. Then it rests 0.8 s, whatever orders arrive. The same holds for the
-page, which repeats the order several times a second while its button is held. A person at the console, at the panel or
-in a calibration may press as often as needed. After three presses that moved nothing a program's presses are ignored.
+presses of a link turn it for two seconds at most. Then it rests 0.8 s, and presses have no effect meanwhile. The same
+holds for the page, which repeats the order several times a second while its button is held. A person at the console, at
+the panel or in a calibration may press as often as needed. After three presses that moved nothing a program's presses
+are ignored.
 
 Knows both axes, the source of the last jog of each, and how long each has been driven. Knows no other order.
 """

@@ -92,12 +92,12 @@ class Movements:
             self._idle.ordered(now_s)
 
     def take_turn(self, order: TakeTurn, now_s: float) -> None:
-        """Follow the stream on this turn from now on; ignored where it has ended meanwhile."""
+        """Follow the stream on this turn of azimuth from now on; ignored if the stream has ended."""
         if not self.timed.running and not self.faulted and self._aiming.take_turn(order, now_s):
             self._idle.ordered(now_s)
 
     def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
-        """Fly as planned what a recognised stream asks for; ignored where it has ended meanwhile. Raises Refused."""
+        """Fly a planned pass in place of a recognised stream; ignored if the stream has ended. Raises Refused."""
         if not self.timed.running and not self.faulted and self._aiming.fly_for_stream(order, source, now_s):
             self._idle.ordered(now_s)
 

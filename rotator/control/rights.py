@@ -73,7 +73,7 @@ class Deed(Enum):
     TAKE = "take"
     LET_GO = "let-go"
     NUDGE = "nudge"
-    """It ends nothing: it shifts the target in force and the later ones, but not that of a storm park."""
+    """A nudge ends no motion: it shifts the target in force and later targets, but not that of a storm park."""
     SPEED = "speed"
     CHECKED = "relays-checked"
     CLEAR = "clear the list"
@@ -81,7 +81,7 @@ class Deed(Enum):
 
 
 QUIET = frozenset({None, Deed.NUDGE, Deed.SPEED, Deed.CHECKED, Deed.CLEAR})
-"""What no sender gives who moves the antenna: beside a plan that the box flies by itself it changes nothing."""
+"""Orders that do not take the antenna from the sender that moves it: a plan that the box flies by itself goes on."""
 
 
 class Effect(Enum):
@@ -130,12 +130,12 @@ def at_mode(mode: Mode, *, own: bool) -> State | None:
 
 
 def mode_words(mode: Mode, by: str) -> str:
-    """`by`: who has set the mode; empty: the panel, at the start."""
+    """The mode in words. `by`: the sender that has set it; empty: the panel's switch, at the start."""
     return f"the panel's switch is at {mode.name}" if by in ("", PANEL) else f"{by} has set the mode {mode.name}"
 
 
 def standing_holds(latched: str, mode: Mode, mode_by: str, *, storm: bool, own: bool) -> dict[State, str]:
-    """What holds the antenna back whatever was sent: a latched stop first, then the mode. With the words for each.
+    """The states that hold back every order: a latched stop first, then the mode; each with its words.
 
     `own`: the sender has set the mode.
     """
@@ -190,7 +190,7 @@ def deed_of(order: Order) -> Deed | None:
 def holds(status: Status, source: Source | None = None) -> dict[State, str]:
     """The states in which the box is held, as a person sees them, with the words for them.
 
-    `source`: the person's, where another person's hold concerns it.
+    `source`: the person, if another person may hold the antenna against this one; None: a person on the console.
     """
     held = {}
     if source is not None and source.may_be_held_off and status.held_by not in ("", str(source)):
@@ -201,7 +201,8 @@ def holds(status: Status, source: Source | None = None) -> dict[State, str]:
 
 
 def table() -> str:
-    """The table for docs/safety.md: a column for the states that allow the same, a row for the orders alike in all."""
+    """The table for docs/safety.md. States that allow the same orders share a column, and orders that the same states
+    allow share a row."""
     columns: dict[tuple[str, ...], list[str]] = {}
     for state in State:
         columns.setdefault(tuple(TABLE[state][deed].value for deed in Deed), []).append(state.value)

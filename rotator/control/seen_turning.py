@@ -1,7 +1,7 @@
-"""How fast an axis turns that nobody drives: by a welded relay, a hand at the control box, or the wind.
+"""How fast an axis turns that the box does not drive: by a welded relay, a hand at the control box, or the wind.
 
-Knows the angles of the last second. Does not know why it turns, and stops nothing: the faults do. It is for the
-screens, on which a person must see at a glance that the antenna turns.
+Knows the angles of the last second. Does not know why the axis turns, and stops nothing: the faults do. The speed is
+for the screens, on which a person must see at a glance that the antenna turns.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections import deque
 
 WINDOW_S = 1.0
 LEAST_S = 0.9
-"""Angles over a shorter time tell no speed: the antenna may coast a little longer than it is known to."""
+"""Angles over a shorter time show no speed: the antenna may coast a little longer than its known coast."""
 SLOWEST_DPS = 0.5
 NOISES = 8.0
 """A change of the angle by so many times its noise is no noise."""
@@ -32,7 +32,7 @@ class SeenTurning:
             self._angles.popleft()
 
     def driven(self) -> None:
-        """It is driven, or coasts: what it turns now is no motion of its own."""
+        """The axis is driven, or coasts: its present motion was ordered."""
         self._angles.clear()
 
     def speed_dps(self, noise_deg: float) -> float:

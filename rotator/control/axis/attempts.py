@@ -65,7 +65,7 @@ class Attempts:
         return self._short_runs.see(at_s, angle_deg, noise_deg)
 
     def note(self, found: Fault | None, now_s: float, *, cause: Fault | None) -> bool:
-        """What is wrong now; `cause`: the part that is still present. Returns whether a new fault is kept."""
+        """Note what is wrong now; `cause`: the part that is still present. Returns whether a new fault is kept."""
         self._now_s = now_s
         return self._struck(self._faults.note(found, now_s, cause=cause, tries=self._tries(found)))
 
@@ -74,7 +74,7 @@ class Attempts:
         return self._struck(self._faults.fail(fault, self._now_s, tries=self._tries(fault)))
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
-        """End the fault, unless a person has to. Returns whether it has been acknowledged."""
+        """End the fault, unless only a person may end it. Returns whether it has been acknowledged."""
         if not self._faults.acknowledge(now_s, by_person=by_person):
             return False
         if by_person:

@@ -102,7 +102,7 @@ class AxisBase(ABC, Generic[Settings]):
     def _status(
         self, now_s: float, starts: int | None, *, drive: Direction, noise_deg: float, notices: tuple[Notice, ...]
     ) -> AxisStatus:
-        """The axis as others see it, but for what only relays have."""
+        """The status of the axis, without the fields that only an axis with relays has."""
         return AxisStatus(
             min_deg=self._settings.limits.min_deg,
             max_deg=self._settings.limits.max_deg,

@@ -13,22 +13,22 @@ from rotator.exchange.faults import POT, Fault
 
 TRIES = 3
 TRIES_WITHIN_S = 600.0
-"""After this many faults within this time only a person may have the motor tried again, or the time."""
+"""After this many faults within this time a link cannot acknowledge the fault: a person does, or the time passes."""
 
 OFTEN = f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: only `resume` or that time acknowledges it"
 
 
 class FaultLatch:
-    """Keeps the first fault until it is acknowledged; one that only cutting the supply ends replaces any other."""
+    """Keeps the first fault until it is acknowledged. A fault that cuts the supply replaces one that does not."""
 
     def __init__(self, sensor: str = POT, *, before: Fault | None = None, tries: int = 0) -> None:
         """`tries`: how often faults had stopped the motor when the program began; `before`: the latest of them."""
         self._sensor = sensor
         """What reads the angle, in a word: each fault names it."""
         self.kind = before.kind if before and tries else None
-        """Of the latest fault that stopped the motor; None: there was none lately."""
+        """The kind of the latest fault that stopped the motor; None: no fault has stopped it lately."""
         self._before = tries
-        """They count from the first moment that is known on."""
+        """Faults before the program began. They count as if they came at the first call that gives a moment."""
         tried = replace(before, measured=f"before the program began again; {OFTEN}") if before else None
         self.fault = self._named(tried if tries >= TRIES else None)
         self._cause: Fault | None = None
@@ -37,10 +37,10 @@ class FaultLatch:
         """When faults last stopped the motor."""
 
     def note(self, found: Fault | None, now_s: float, *, cause: Fault | None, tries: int) -> bool:
-        """What is wrong at this moment. Returns whether a new fault is kept.
+        """Note what is wrong at this moment. Returns whether a new fault is kept.
 
-        `cause`: the part that is still present, so it returns after an acknowledgement. `tries`: how often the motor
-        was on in vain before.
+        `cause`: the fault whose cause is still present, so that it returns after an acknowledgement. `tries`: how often
+        the motor was on in vain before.
         """
         self._begin(now_s)
         self._cause = cause
@@ -49,7 +49,8 @@ class FaultLatch:
         return self.fail(found, now_s, tries=tries)
 
     def fail(self, fault: Fault | None, now_s: float, *, tries: int) -> bool:
-        """Store it if no fault is stored, or if it cuts the supply and the stored one does not. Returns whether."""
+        """Keep this fault if none is kept, or if it cuts the supply and the kept one does not. Returns whether it is
+        kept."""
         if fault is None or (self.fault is not None and (self.fault.cut or not fault.cut)):
             return False
         if not fault.passing:

@@ -88,7 +88,7 @@ class MotionWatch:
         """An axis that measures has no end stop to find."""
 
     def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
-        """What the readings have shown of other places is dropped."""
+        """The readings mean other places from now on: what they have shown is forgotten."""
         relays = self._seen.relays
         self._begin(motors, placed=placed, look=self.looks)
         self.note_relays(relays)

@@ -16,7 +16,7 @@ from rotator.control.axis.trend import Slope, Trend
 from rotator.control.sky.mount import Range
 
 SLOWEST_DPS = 0.5
-"""Until an axis has shown how fast it turns it may be as slow as this, whatever the configuration says of its motor."""
+"""Until an axis has shown how fast it turns it may be as slow as this, also if the configuration says otherwise."""
 RELAY_SETTLES_S = 0.05
 """A relay and the cycle in which it closed take this long at most."""
 

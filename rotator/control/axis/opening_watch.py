@@ -33,9 +33,9 @@ GAP_S = 0.5
 EXTRAPOLATED_AFTER_S = 0.2
 """If the last reading is older, the angle is extrapolated."""
 BLIND_S = 1.0
-"""In short runs of this length in all an axis may not be seen to turn."""
+"""An axis may turn without being seen to turn, in short runs of this length in all."""
 MOVED_DEG, MOVED_NOISES = 0.5, 4.0
-"""An axis this far, and this many times the noise, from where it stood has been moved."""
+"""An axis has been moved when it is this far from where it stood, and this many times the noise."""
 SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
 """An axis is watched for this long before it is taken to stand: longer where the readings scatter more."""
 
@@ -203,7 +203,7 @@ class OpeningWatch:
             self._obstacles.left(self._place_deg, self._moved_deg)
 
     def _conclude(self, at_s: float, way: Direction) -> None:
-        """What it shows of this relay that the axis stands."""
+        """The axis stands: decide whether that shows this relay open."""
         trust, rest = self._trusts.of(way), self._rest
         if trust is Trust.OPEN:
             return

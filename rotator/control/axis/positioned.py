@@ -93,7 +93,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
             self._readings.see(at_s, angle_deg, self._settings.speed_dps)
             self._pace.see(at_s, angle_deg)
-        # The rotor's own report says more than what can be seen of it from here.
+        # The rotor's own report says more than the watches here can see.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
         found = reported or unbelievable or self._turning(now_s) or self._straying(now_s)

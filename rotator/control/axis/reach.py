@@ -1,7 +1,7 @@
 """How far an axis may go before a command can end that: from where it may be now to where it may come to rest.
 
-Knows speeds, and how far a motor runs on. Bounds, not guesses: the motor may be half as fast again as the file says,
-and the latest reading is as old as it is. Knows no goal and no sector.
+Knows speeds, and how far a motor runs on. Gives bounds, not guesses: the motor may be 1.5 times as fast as the file
+says, and the axis has moved on since the latest reading. Knows no goal and no sector.
 """
 
 from __future__ import annotations

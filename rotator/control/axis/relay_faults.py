@@ -28,7 +28,7 @@ def limit_reached(axis: Axis, direction: Direction) -> Fault:
 
 
 def unstoppable(fault: Fault, *, master: bool) -> Fault:
-    """This fault, of an axis that its own relays may not stop: only cutting the supply is sure to.
+    """The same fault, for an axis that its own relays may not stop: only a cut of the supply surely stops it.
 
     `master`: an output switches the supply.
     """
@@ -51,7 +51,7 @@ def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, ma
             return unstoppable(Fault(FaultKind.RELAY_WELDED, axis, f"the relay {way} was found closed"), master=master)
         case Trust.DOUBTED:
             measured = f"the relay {way} is off, and it{place or ' stands'}, where a motor with current would stand too"
-            # The motor may have current and be held by its stop: with a master it is spared that.
+            # The motor may have current and press against its stop: a master then cuts that current.
             return Fault(FaultKind.RELAY_UNSEEN, axis, measured, cut=master)
         case _:
             return None

@@ -16,7 +16,7 @@ BLINK_S = 0.1
 
 @dataclass(frozen=True, slots=True)
 class RelayState:
-    """As it is from the start: no relay was closed yet."""
+    """The defaults are the state at the start: no relay was closed yet."""
 
     direction: Direction = Direction.OFF
     since_s: float = -math.inf

@@ -32,7 +32,7 @@ class RunOn:
         self.begin()
 
     def begin(self) -> None:
-        """A run begins: what the one before has shown is over."""
+        """A run begins: forget what the run before has shown."""
         self.ran_on = False
         """The axis went on at its speed after its relay was switched off."""
         self.held_up = False
@@ -63,13 +63,13 @@ class RunOn:
         return False
 
     def stands(self, place_deg: float) -> None:
-        """It has come to rest. No coast ends so suddenly as an axis at full speed that something holds."""
+        """The axis has come to rest. A coast ends slowly; an axis that something holds at full speed ends suddenly."""
         if (ended := self._run.ended) is None or ended.line is None:
             return
         gone_deg = abs(place_deg - ended.angle_deg)
         if (place_deg - ended.angle_deg) * ended.line.speed_dps < 0.0 or not self._went_far(ended, gone_deg):
             return
-        # A powered motor would have got here by then; one that coasts is still on its way.
+        # At this moment a powered motor would already have been here. A coasting axis was still on its way.
         then_deg = self._seen.trend.place_deg(ended.off_s + gone_deg / self._full_dps(ended), AROUND_S)
         if then_deg is None or abs(then_deg - ended.angle_deg) >= SUDDEN_SHARE * gone_deg:
             self.held_up = True
@@ -77,7 +77,7 @@ class RunOn:
     def _still_coasts(self, passed_s: float, gone_deg: float, line: Slope) -> bool:
         """Whether the axis has fallen behind a powered motor, and still moves on: a stop would have held it there.
 
-        Many readings are compared for it, so it takes more than for one; and none coasts for long.
+        Many readings are compared, so each difference must be larger than for one reading. No coast takes long.
         """
         if passed_s > COASTS_S:
             return False
@@ -101,5 +101,5 @@ class RunOn:
         return gone_deg - self._seen.trend.noise_deg > longest_s * (self._full_dps(ended) + error_dps)
 
     def _full_dps(self, ended: EndedRun) -> float:
-        """Its full speed: in a short run the motor was still gathering it."""
+        """The motor's full speed, which it has not reached in a short run."""
         return max(abs(ended.line.speed_dps) if ended.line else 0.0, self._run.motor_dps)

@@ -107,7 +107,7 @@ class RunWatch:
         return unstoppable(Fault(FaultKind.TURNS_BY_ITSELF, self._axis, measured), master=self._master)
 
     def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
-        """The contact shows what it has shown before."""
+        """A new scale changes the angles only: what the contact has shown stays true."""
         self._motors, self._angle_deg = motors, None
 
     def homes(self, *, homing: bool, failed: bool) -> None:

@@ -108,7 +108,7 @@ class Sensing:
         elif self._bad_since_s is None:
             self._bad_since_s = now_s
         lasts = self._bad_since_s is not None and now_s - self._bad_since_s >= BAD_FOR_S
-        # What lasts is a fault of its own, and so is what the rotor reports: neither spoils the rate.
+        # Bad readings that last, and faults that the rotor reports, are faults by themselves: they do not count here.
         if new and not lasts and reading.condition.fault is None:
             bad = problem is not None or missed
             self._in_a_row = self._in_a_row + 1 if bad else 0
@@ -151,7 +151,7 @@ class Sensing:
         return None
 
     def _too_many(self, now_s: float, latest: Fault | None) -> Fault | None:
-        """The fault of being bad too often, or of having moved too often at once."""
+        """The fault of too many bad readings, or of readings that jumped to another place too often."""
         if len(self._moved_s) == MOVES and now_s - self._moved_s[0] < MOVES_WITHIN_S:
             self._moved_s.clear()
             measured = f"to another place, {MOVES} times in {MOVES_WITHIN_S:g} s"

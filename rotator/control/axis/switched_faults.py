@@ -1,4 +1,4 @@
-"""What is wrong with a switched axis: by its readings, by what the rotor reports, and by what it was tried for in vain.
+"""What is wrong with a switched axis: by its readings, by the rotor's reports, and by runs that did not move it.
 
 Knows the watches that find faults, and the latch that keeps one. Does not stop the motor.
 """
@@ -34,9 +34,9 @@ class SwitchedFaults:
         self._vain = VainPresses(before=settings.tries.pressed)
         self._calibrated = settings.calibration is not None
         self._changes: int | None = None
-        """Of the contact by which it counts, by the latest reading; None: there was no reading yet."""
+        """The changes of the counting contact, by the latest reading; None: there was no reading yet."""
         self._silent = False
-        """It has not changed since the latest run began."""
+        """The contact has not changed since the latest run began."""
         self._astray: Fault | None = None
         """What is wrong with the motion, by the latest reading."""
         self._lost: str | None = None
@@ -78,7 +78,7 @@ class SwitchedFaults:
             elif not self._counts:
                 found = found or self._attempts.see(at_s, angle_deg, self._gate.noise_deg)
             self._astray = None if homing else found
-        # The rotor's own report says more than what can be seen of it from here.
+        # The rotor's own report says more than the watches here can see.
         reported, present = reading.condition.fault, self._gate.blind(unbelievable, now_s) or self._astray
         cause = present if reading.condition.latched else reported or present
         if homing and reported and not reported.cut:
@@ -89,7 +89,7 @@ class SwitchedFaults:
         return self._attempts.note(reported or present or lost, now_s, cause=cause)
 
     def _newly_lost(self, why: str) -> Fault | None:
-        """The fault of a count that has just been lost. At the start it is known to be lost, and no fault."""
+        """The fault of a count that has just been lost. A count that is lost from the start is no fault."""
         if not why or self._lost != "":
             return None
         return Fault(FaultKind.COUNT_LOST, self._axis, f"homing ({why})")

@@ -25,11 +25,13 @@ from rotator.exchange.motor import LearntMotor
 from rotator.exchange.status import JOG_ENDS_DEG
 
 LEAST_SHARE = 0.55
-"""Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""
+"""An error below this share of the tolerance starts no motor, even for a slow target: orders in whole degrees are no
+more exact."""
 LEAST_MOVE_DEG = 0.3
 RESTARTS_AFTER_S = 0.5
-"""A motor that has been switched off for a target that stands is not switched on for it again sooner: what its readings
-show by then is where it stands. A count that waits for its contact would else make its relay chatter."""
+"""After a motor was switched off for a standing target, it starts for that target again after this time at the
+earliest: only then do the readings show where the axis stands. Without this the relay of a counted axis would chatter,
+because the axis waits for its contact."""
 
 ANYWHERE = (-math.inf, math.inf)
 
@@ -106,7 +108,7 @@ class SwitchedLaw:
         return self._go(now_s, target_deg)
 
     def drive(self, now_s: float, direction: Direction) -> Run:
-        """In this direction, wherever the axis is; OFF: rest."""
+        """Drive in this direction at any angle of the axis; OFF: rest."""
         return Run(direction, now_s + self._timing.lease_s) if direction else self.rest(now_s)
 
     def aim(self, now_s: float, goal: AimGoal, limits: Range) -> Run:
@@ -131,7 +133,7 @@ class SwitchedLaw:
         return Run(direction, min(run.until_s, self.jog_until_s(now_s, goal)))
 
     def jog_until_s(self, now_s: float, goal: JogGoal) -> float:
-        """Until when a command of this jog holds, wherever the axis is."""
+        """Until when a command of this jog holds, at any angle of the axis."""
         longest_s = now_s + self._timing.lease_s
         return longest_s if goal.until_s is None else min(longest_s, goal.until_s)
 
@@ -153,7 +155,7 @@ class SwitchedLaw:
         return self._go(now_s, place_deg)
 
     def _place_deg(self, path: Path, rest_deg: float, speed_dps: float, tolerance_deg: float) -> float:
-        """The place planned on this path. Planned once a path, for a path is only good for half a second."""
+        """The place planned on this path. It is planned once for each path, because a path is replaced after 0.5 s."""
         if self._planned is None or self._planned[0] is not path:
             self._planned = (path, next_place_deg(path, rest_deg, speed_dps, tolerance_deg))
         return self._planned[1]

@@ -29,11 +29,11 @@ _FIRST_NOISE_DEG = 0.1
 _FIRST_READINGS = 20
 """The first estimate of the noise is the mean scatter of this many readings."""
 _MEAN = 0.7979
-"""The mean of the size of what scatters by one."""
+"""The mean of the absolute value of normal noise with an rms of 1."""
 _LEAST_NOISE_DEG, _MOST_NOISE_DEG = 0.02, 1.5
 _NOISE_STEP = 1.03
 _MEDIAN = 0.6745
-"""The median of the size of what scatters by one."""
+"""The median of the absolute value of normal noise with an rms of 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ class Trend:
         """Scatter of the readings, rms, as seen up to now."""
         self._kept: deque[SeenAt] = deque()
         self._first: list[float] = []
-        """How far each of the first readings is off, in the size of the noise."""
+        """The distance of each of the first readings from the line through its neighbours, scaled to the noise."""
 
     @property
     def since_s(self) -> float:

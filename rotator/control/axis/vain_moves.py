@@ -1,7 +1,7 @@
-"""What an axis that goes to an angle by itself did not follow: moves one after the other, and a target that moves on.
+"""Whether a positioned axis follows: moves that did not bring it nearer, and a moving target that it did not follow.
 
-Knows where it was sent, for how long, and how far it came nearer meanwhile. A move that ends before the axis can be
-said not to follow counts with the fault that comes later. Finds no fault, and stops nothing.
+Knows where the axis was sent, for how long, and how far it came nearer meanwhile. A move that ends too early for a
+fault counts with the fault that comes later. Finds no fault, and stops nothing.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class VainMoves:
         return self.count > 0 or self._since_s is not None
 
     def see(self, sent_s: float, nearer_deg: float, coming_deg: float, *, begins: bool) -> None:
-        """`sent_s`: for how long, in all, it was sent somewhere. `nearer_deg`: how far, in all, it came nearer to that.
+        """`sent_s`: for how long, in all, the axis was sent somewhere. `nearer_deg`: how far, in all, it came nearer.
 
         `begins`: the drive held before, and the axis is sent elsewhere.
         """

@@ -23,7 +23,7 @@ class VainPresses:
     """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
 
     def __init__(self, *, before: bool = False) -> None:
-        """`before`: they did not in an earlier run of the program."""
+        """`before`: presses did not turn the axis in an earlier run of the program."""
         self._smoothed = Smoothed()
         self.forget()
         if before:

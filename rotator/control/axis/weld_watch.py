@@ -100,7 +100,7 @@ class WeldWatch:
         return self._suspected(at_s, slope, limit_dps)
 
     def _clearly(self, at_s: float) -> Slope | None:
-        """The speed of an axis that turns like its motor, where noise asks for a longer look at a slower one."""
+        """The speed of an axis that turns as its motor does; None: it is slower, or the noise leaves that open."""
         slope = self._seen.speed(at_s, TURNING_WINDOW, math.inf)
         if slope is None or abs(slope.speed_dps) - TURNS_ERRORS * slope.error_dps < TURNING_SHARE * self._motor_dps:
             return None

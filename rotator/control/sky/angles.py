@@ -21,7 +21,7 @@ def turn_deg(from_deg: float, to_deg: float) -> float:
 def great_circle_deg(
     azimuth_a_deg: float, elevation_a_deg: float, azimuth_b_deg: float, elevation_b_deg: float
 ) -> float:
-    """Angle on the sky between two pointings; elevations past 90 (over the top) mean what they say."""
+    """Angle on the sky between two pointings. An elevation past 90 points over the top."""
     az = math.radians(azimuth_b_deg - azimuth_a_deg)
     a, b = math.radians(elevation_a_deg), math.radians(elevation_b_deg)
     # Vincenty's form: exact for small angles, where the plain arc cosine loses its digits.
@@ -33,7 +33,7 @@ def great_circle_deg(
 
 
 def unit(azimuth_deg: float, elevation_deg: float) -> Vector:
-    """A direction as a vector of length 1; elevations past 90 (over the top) mean what they say."""
+    """A direction as a vector of length 1. An elevation past 90 points over the top."""
     az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
     return math.cos(el) * math.sin(az), math.cos(el) * math.cos(az), math.sin(el)
 

@@ -30,12 +30,12 @@ class Detour:
     sector: str = ""
     """The sector that keeps the antenna from the target, or that it has to leave first; empty: none does."""
     leaves: bool = False
-    """The antenna may be inside that sector, and the only place is where it is out."""
+    """The antenna may be inside that sector, and the only place is the nearest one outside."""
 
 
 class Detours:
-    """`room_deg`: how much room each axis needs before a sector, beside the sector's margin. `about_deg`: so far from a
-    place where it stands each axis may be."""
+    """`room_deg`: the room that each axis needs before a sector, beside the sector's margin. `about_deg`: how far each
+    axis may be from the place to which it was sent."""
 
     def __init__(self, mount: Mount, room_deg: Place, about_deg: Place, speeds: Speeds) -> None:
         self.limits = Box(mount.azimuth, mount.elevation)
@@ -79,7 +79,7 @@ class Detours:
             axis: sorted({*self._lines[axis], here.of(axis).middle_deg, self.limits.of(axis).nearest(target_deg)})
             for axis, target_deg in zip(Axis, target, strict=True)
         }
-        # Nearer to a sector than it should be, it keeps that distance until it is out.
+        # An antenna that stands nearer to a sector than it should keeps that distance until it is further away.
         first = self._seen_from(here)
         zones = [near if zone.box.meets(here) else zone for near, zone in zip(first, self._zones, strict=True)]
         grid = _Grid(here, lines, (first, zones), self._about_deg, self._speeds)

@@ -1,7 +1,7 @@
 """Plans a whole pass before it begins: the way through it, and the steps of each axis, or its path if it has no relays.
 
 Knows the mount, the target's path and the motors. A plan takes up to a second, so it is not computed in the control
-loop, and comes back to it as an order. Knows no sensors, and not who has asked.
+loop, and comes back to it as an order. Knows neither sensors nor the sender of the request.
 """
 
 from __future__ import annotations

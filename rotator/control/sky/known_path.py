@@ -44,6 +44,6 @@ class KnownPath:
         return (az_a + share * turn_deg(az_a, az_b)) % 360.0, el_a + share * (el_b - el_a)
 
     def directions(self, from_s: float, every_s: float) -> Sequence[tuple[float, float]]:
-        """From a moment on to the end, every so often."""
+        """The directions every `every_s` seconds, from `from_s` to the end."""
         count = max(1, int((self.end_s - from_s) / every_s) + 1)
         return [self.direction(from_s + index * every_s) for index in range(count)]

@@ -25,7 +25,7 @@ SURE_AFTER_S = 45.0
 """A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
 HALF_TURN_DEG = 180.0
 LEAST_WEIGHT = 0.1
-"""Near the zenith azimuth hardly matters, but an antenna that a person sends there shall turn all the same."""
+"""Near the zenith azimuth hardly matters. But an azimuth that a person orders there must still turn the antenna."""
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
 LEVEL_DEG, LEAVES_DEG = 1.0, 10.0
@@ -65,14 +65,17 @@ class Pointing:
         self._track.end()
 
     def accompany(self, now_s: float, aim: Aim, way: Way) -> None:
-        """The antenna is led on this way by another; note the orders of the stream, to go on with it from there."""
+        """A flight leads the antenna on this way. Note the stream's order, to follow the stream after the flight."""
         assert aim.azimuth_deg is not None
         assert aim.elevation_deg is not None
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
         self._way = way
 
     def take_turn(self, now_s: float, order: TakeTurn) -> Goals | None:
-        """Goals for the order in force on this turn; None: it does not stand for the horizon near that place."""
+        """Goals for the order in force, on this turn of azimuth.
+
+        None: that order does not point at the horizon near the place of the rise.
+        """
         wanted = self.wanted
         if self._way is None or wanted.azimuth_deg is None or wanted.elevation_deg is None:
             return None
@@ -108,7 +111,7 @@ class Pointing:
         before = wanted or self.wanted
         again = (aim.azimuth_deg, aim.elevation_deg) == (before.azimuth_deg, before.elevation_deg)
         again = again and self._way is not None
-        # The same order again: stay on the turn chosen, wherever the antenna is now.
+        # The same order again: stay on the turn chosen, also while the antenna is elsewhere.
         near_deg = self._way.azimuth_deg if again and self._way is not None else azimuth_deg
         axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(
             aim.azimuth_deg, aim.elevation_deg, near_deg, over=over
@@ -132,7 +135,7 @@ class Pointing:
         # An elevation above 90 names the way itself, and so does the one after it that comes back across the zenith.
         named = self._is_over(aim) or self._is_over(before)
         if self._way is not None and not named and (moving or self._led_until_s > now_s):
-            # The antenna stays on its way, wherever it is now.
+            # The antenna stays on its way, also while it is elsewhere.
             flown_deg, _ = self._mount.on_the_way(
                 *direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
             )
@@ -216,8 +219,10 @@ class Pointing:
         self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
 
     def _calm_way(self, now_s: float, aim: Aim, way: Way, azimuth_deg: float) -> Way:
-        """The way to a new order; where only a swing right round leads there, and swings must wait, the present one.
-        A swing that has only begun is broken off, when that is nearer."""
+        """The way to a new order. If only a swing right round leads there, and swings must wait: the present way.
+
+        A swing that has only begun is broken off if the way back is nearer.
+        """
         assert aim.azimuth_deg is not None
         if self._way is None or aim.azimuth_deg > FULL_TURN_DEG:  # the sender names the overlap
             return way
@@ -264,7 +269,7 @@ class Pointing:
         )
 
     def _standing_tolerance_deg(self, elevation_deg: float) -> float:
-        """On the sky: high up, a degree of azimuth moves the antenna less than a degree."""
+        """The tolerance of azimuth on the sky: high up, a degree of azimuth moves the antenna by less than a degree."""
         if not self._on_sky:
             return self._azimuth_tolerance_deg
         weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))

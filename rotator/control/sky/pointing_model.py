@@ -44,7 +44,7 @@ class PointingModel:
     def axis_angles(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
         """What the axes read when the boom points there. Above 90° it points there over the top.
 
-        Next to the azimuth axis lies what a boom that is not square cannot reach: there it comes as near as it can.
+        A boom that is not square to its axis cannot point along the azimuth axis: there it points as near as it can.
         """
         if self.perfect:
             return azimuth_deg, elevation_deg
@@ -96,7 +96,7 @@ class PointingModel:
         return math.cos(square) * math.cos(raised), right
 
     def _tilted(self, there: Vector, *, upright: bool) -> Vector:
-        """A vector that is fixed to the azimuth axis, as that leans; `upright`: one of the sky, put on an upright axis.
+        """The vector, turned as the azimuth axis leans; `upright`: turned back, as if the azimuth axis stood upright.
 
         The axis leans without a twist: it turns about the level line square to where it leans.
         """

@@ -82,7 +82,7 @@ class Flown:
         self.azimuths_deg: list[float] = []
         self.elevations_deg: list[float] = []
         self.errors_deg: list[float] = []
-        """Nothing where the target is not seen."""
+        """The error at each look; 0 while the target is not seen."""
         losses_s = [0.0]
         azimuth_deg = way.azimuth_deg
         for direction_deg, elevation_deg in directions:
@@ -105,11 +105,11 @@ class Flown:
         return self.azimuths_deg[look], self.elevations_deg[look]
 
     def holds(self, look: int) -> bool:
-        """Whether the target is within reach on this way then, or nothing is lost without it."""
+        """Whether the antenna reaches the target on this way at this look, or the target is not seen."""
         return look == len(self.azimuths_deg) or self.loss_s(look) < 0.99 * STEP_S
 
     def loss_s(self, look: int) -> float:
-        """What is lost from this look to the next."""
+        """Seconds lost from this look to the next."""
         return self.lost_s[look + 1] - self.lost_s[look]
 
     def change(self, to: Flown, look: int, speeds: Speeds) -> tuple[int, float]:

@@ -1,8 +1,8 @@
 """Boxes of azimuth and elevation, on the axes' own scales: the sectors in which the antenna would touch something.
 
-While each axis turns one way, from one angle to another, the antenna stays in the box that the two places span,
-whatever the motors' speeds. So a move is safe where that box meets no sector; and an antenna that is inside one may
-only leave it. Knows boxes. Knows no motor and no order.
+While each axis turns one way, from one angle to another, the antenna stays in the box that the two places span, at any
+speed of the motors. So a move is safe where that box meets no sector; and an antenna inside a sector may only leave it.
+Knows boxes. Knows no motor and no order.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rotator.control.sky.mount import Range, Sector
 NEAREST_MORE_DEG = 3.0
 """An edge that is this much further than the nearest one is as good a way out: readings tremble."""
 UNKNOWN = Range(-math.inf, math.inf)
-"""Where an axis may be whose angle is not known."""
+"""The range of an axis whose angle is not known."""
 OTHER = {Axis.AZIMUTH: Axis.ELEVATION, Axis.ELEVATION: Axis.AZIMUTH}
 
 Place = tuple[float, float]
@@ -128,7 +128,7 @@ def _way_out(axis: Axis, direction: Direction, span: Range, crossed: list[Kept])
 def may_sweep(sectors: Iterable[Kept], where: Box, swept: Box, limits: Box) -> bool:
     """Whether the antenna may go from where it may be now to anywhere in `swept`, which holds that place.
 
-    It enters no sector; what it may be inside of it leaves, by one axis.
+    The antenna enters no sector. A sector in which it may be, it leaves by turning one axis.
     """
     every = list(sectors)
     met = {each.name for each in every if each.box.meets(swept)}

@@ -29,7 +29,7 @@ class TimedTable:
     utc: bool = False
 
     def line(self, at_s: float) -> int:
-        """Of the latest row up to this moment."""
+        """The line of the latest row up to this moment."""
         return self.lines[max(0, bisect_right(self.rows, at_s, key=lambda row: row[0]) - 1)]
 
 

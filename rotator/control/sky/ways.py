@@ -95,14 +95,14 @@ def best_route(
 
 
 class _Beginning:
-    """The antenna goes to the beginning of a way. `rest`: what the pass costs from each look on, once it is there."""
+    """The antenna goes to the beginning of a way. `rest`: the cost of the pass from each look on, on that way."""
 
     def __init__(self, turning: Turning, way: Flown, from_deg: Place, early_s: float, rest: Sequence[float]) -> None:
         waits_deg = way.place(0)
         begins_deg = turning.after(from_deg, waits_deg, early_s)
         self.way = way
         self.look = turning.arrival(begins_deg, way, 0, left=0)
-        """At which it is there."""
+        """The look at which the antenna is on the way."""
         self.errors_deg = turning.errors_deg(begins_deg, way, 0, self.look)
         cost_s = sum(map(_cost_s, self.errors_deg)) + rest[self.look]
         self.cost = float(round(cost_s / EVEN_S)), turning.travel_s(from_deg, waits_deg)
