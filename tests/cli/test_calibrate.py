@@ -20,7 +20,7 @@ from rotator.config.load import load, parse
 from rotator.config.places import console_path
 from rotator.exchange.status import Latch
 from rotator.store.latch import FILE_NAME, LatchFile
-from rotator.store.whole import NEW
+from tests.refusing import refuse
 
 LIMIT_S = 60.0
 STATION = """# A fast one.
@@ -220,13 +220,6 @@ def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tm
     assert "Start it in a terminal" in " ".join(text.split())
 
 
-def refuse(folder: Path) -> Path:
-    """The card of this station refuses the file of a stop until what is returned is gone."""
-    blocked = folder / (FILE_NAME + NEW)
-    blocked.mkdir()
-    return blocked
-
-
 @pytest.fixture
 def memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The service's folder in memory, for a calibration too."""
@@ -236,7 +229,7 @@ def memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_nothing_turns_after_a_stop_that_only_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
-    blocked = refuse(tmp_path)
+    blocked = refuse(tmp_path / FILE_NAME)
     LatchFile(tmp_path / FILE_NAME, memory).save(Latch("panel"))
     blocked.rmdir()
     text, code = finish(start("--config", str(kept_station(tmp_path))))
@@ -247,7 +240,7 @@ def test_nothing_turns_after_a_stop_that_only_memory_has(start: Start, tmp_path:
 def test_a_stop_during_a_calibration_is_newer_than_what_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
     path = kept_station(tmp_path)
     LatchFile(tmp_path / FILE_NAME).save(Latch("panel"))
-    blocked = refuse(tmp_path)
+    blocked = refuse(tmp_path / FILE_NAME)
     released = LatchFile(tmp_path / FILE_NAME, memory)
     released.load()
     released.save(None)
@@ -267,7 +260,7 @@ def test_a_stop_that_is_ended_where_the_card_refuses_stays_ended(
 ) -> None:
     path = kept_station(tmp_path)
     LatchFile(tmp_path / FILE_NAME).save(Latch("keyboard"))
-    refuse(tmp_path)
+    refuse(tmp_path / FILE_NAME)
     calibration = start_in_terminal("calibrate", "--config", path)
     calibration.until("Is the mast free of people, and shall the stop end")
     calibration.press("y\r")

@@ -4,35 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from benchmarks.drills.goals import Ranges
-from benchmarks.drills.orders import Orders
 from benchmarks.drills.script import Event
 from benchmarks.drills.tracked import RESTS_S
+from tests.drills.scripted import SOON_S, Script
 
 ARC = "arc 0 120 40 90 1 60"
-SOON_S = 0.05
-
-
-class Script:
-    """One order after the other, on a rotor of 360° and 180°."""
-
-    def __init__(self, *, follows: bool = False) -> None:
-        self.orders = Orders((Ranges(0.0, 360.0, False), Ranges(0.0, 180.0, False)), (0.0, 0.0), follows=follows)
-        self.now_s = 0.0
-        self.wait(SOON_S)
-
-    def say(self, who: str, what: str, *args: float | str) -> None:
-        self.orders.note(Event(self.now_s, who, what, args))
-        self.wait(SOON_S)
-
-    def wait(self, seconds: float) -> None:
-        self.now_s += seconds
-        self.orders.expire(self.now_s)
-
-    @property
-    def moves(self) -> tuple[bool, bool]:
-        """Whether each axis may move."""
-        return self.orders.holds("azimuth"), self.orders.holds("elevation")
 
 
 @pytest.mark.parametrize(

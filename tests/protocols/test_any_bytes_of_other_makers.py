@@ -7,7 +7,6 @@ The second readings below are written from the protocols' descriptions, by hand 
 from __future__ import annotations
 
 import re
-import tracemalloc
 from collections.abc import Callable, Iterator
 from itertools import product
 from typing import TYPE_CHECKING
@@ -24,6 +23,7 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.session import Box, Session
 from rotator.protocols.spid import Model
 from rotator.protocols.spid_session import SpidSession
+from tests.protocols.endless import assert_not_kept
 from tests.search import examples, some
 
 if TYPE_CHECKING:
@@ -215,10 +215,4 @@ def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, piece
 def test_what_never_ends_is_not_kept(new_box: type[BenchBox], protocol: str, junk: bytes) -> None:
     session = SESSIONS[protocol](new_box())
     packet = (junk * 4096)[:4096]
-    tracemalloc.start()
-    for _ in range(12):  # more than twice what it may keep
-        assert session.receive(packet) == []
-    kept, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert kept < 20_000
-    assert peak < 100_000
+    assert_not_kept(session, packet, times=12)  # more than twice what it may keep

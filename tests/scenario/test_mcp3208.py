@@ -2,36 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
-from firmware_sim.clock import SimClock
-from rotator.assembly.settings import build_controller
-from rotator.assembly.station import Station
 from rotator.config.load import ConfigError, parse
 from rotator.exchange.orders import Aim
 from rotator.exchange.sources import Source
-from rotator.runtime.loop import ControlLoop
+from tests.scenario.sensed_box import Box
 
-STEP_S = 0.05
 LINES = '[adc]\nkind = "mcp3208"\nazimuth_channel = 6\nelevation_channel = 7\n'
 KERNEL = LINES + 'spi = "kernel"\n'
-
-
-class Box:
-    def __init__(self, text: str) -> None:
-        config = parse(text, "box")
-        self.clock = SimClock()
-        self.station = Station(config, self.clock, self.clock.sleep, (40.0, 20.0), add_alarm=self.clock.add_alarm)
-        self.world: Any = self.station.world
-        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, STEP_S)
-        self.wait(2.0)
-
-    def wait(self, seconds: float) -> None:
-        for _ in range(round(seconds / STEP_S)):
-            self.clock.sleep(STEP_S)
-            self.loop.cycle()
 
 
 @pytest.mark.parametrize("text", [LINES, KERNEL], ids=["lines", "kernel"])

@@ -9,7 +9,7 @@ import pytest
 
 from hw.ports import Axis
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing, decode, encode
-from rotator.store.whole import NEW
+from tests.refusing import refuse
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 CAMS = {AZ: {"spacing_deg": 5.0, "closes_at_deg": 0.3}, EL: {"spacing_deg": 10.0, "closes_at_deg": 2.5}}
@@ -140,8 +140,7 @@ def test_at_the_end_what_stands_is_written_at_once(path: Path) -> None:
 def test_a_homed_angle_that_the_card_refuses_is_written_as_soon_as_it_takes_it(path: Path) -> None:
     file = kept(path)
     file.lose(AZ)
-    blocked = path.with_name(path.name + NEW)
-    blocked.mkdir()
+    blocked = refuse(path)
     file.home(AZ, 12.0)
     blocked.rmdir()
     assert on_disk(path)[AZ] == LOST

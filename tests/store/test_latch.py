@@ -9,7 +9,7 @@ import pytest
 
 from rotator.exchange.status import Latch
 from rotator.store.latch import DAMAGED, LatchFile
-from rotator.store.whole import NEW
+from tests.refusing import refuse
 
 STOP, STORM = Latch("page#2"), Latch("console#3", storm=True)
 
@@ -104,8 +104,7 @@ def test_a_damaged_file_may_have_held_a_stop(path: Path, text: str, caplog: pyte
 
 def test_memory_keeps_a_stop_that_the_card_refuses(tmp_path: Path) -> None:
     path, memory = tmp_path / "latch.json", tmp_path / "memory"
-    blocked = path.with_name(path.name + NEW)
-    blocked.mkdir()
+    blocked = refuse(path)
     assert not LatchFile(path, memory).save(STOP)
     assert LatchFile(path, memory).load() == Latch(f"{STOP.by} before the restart")
     blocked.rmdir()
@@ -117,7 +116,7 @@ def test_memory_keeps_a_stop_that_the_card_refuses(tmp_path: Path) -> None:
 def test_it_says_whether_a_release_that_the_card_refuses_outlives_the_program(tmp_path: Path) -> None:
     path, memory = tmp_path / "latch.json", tmp_path / "memory"
     LatchFile(path).save(STOP)
-    path.with_name(path.name + NEW).mkdir()
+    refuse(path)
     for folder, outlives in ((None, False), (memory, True)):
         file = LatchFile(path, folder)
         file.load()
@@ -134,8 +133,7 @@ def test_what_memory_alone_kept_is_written_to_the_card_by_the_next_run(
     path, memory = tmp_path / "latch.json", tmp_path / "memory"
     first = LatchFile(path, memory)
     first.save(before)
-    blocked = path.with_name(path.name + NEW)
-    blocked.mkdir()
+    blocked = refuse(path)
     first.save(latch)
     blocked.rmdir()
     second = LatchFile(path, memory)

@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis
 from rotator.exchange.motor import ALL_OPEN, Trust, Trusts
 from rotator.store.relays import UNKNOWN, RelaysFile, after
-from rotator.store.whole import NEW
+from tests.refusing import refuse
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 SUSPECTED: dict[Axis, Trusts] = {AZ: (Trust.WELDED, Trust.OPEN), EL: (Trust.OPEN, Trust.DOUBTED)}
@@ -18,13 +18,6 @@ SUSPECTED: dict[Axis, Trusts] = {AZ: (Trust.WELDED, Trust.OPEN), EL: (Trust.OPEN
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     return tmp_path / "run" / "relays.json"
-
-
-def refuse(path: Path) -> Path:
-    """A folder stands where the new content would be written: the card refuses until it is gone."""
-    blocked = path.with_name(path.name + NEW)
-    blocked.mkdir(parents=True, exist_ok=True)
-    return blocked
 
 
 def test_without_a_file_each_relay_may_be_closed(path: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from rotator.store.forms import Form
 from rotator.store.spared import SparedFile
-from rotator.store.whole import NEW
+from tests.refusing import refuse
 
 FORM = Form("rotator test")
 NOTHING, DAMAGED = -1, -2
@@ -23,13 +23,6 @@ def card(tmp_path: Path) -> Path:
 @pytest.fixture
 def memory(tmp_path: Path) -> Path:
     return tmp_path / "memory"
-
-
-def refuse(path: Path) -> Path:
-    """A folder stands where the new content would be written: this place refuses until it is gone."""
-    blocked = path.with_name(path.name + NEW)
-    blocked.mkdir(parents=True)
-    return blocked
 
 
 def opened(card: Path, memory: Path | None) -> SparedFile:

@@ -12,7 +12,7 @@ from hw.ports import Axis
 from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import NO_TRIES, Tries
 from rotator.store.tries import TriesFile
-from rotator.store.whole import NEW
+from tests.refusing import refuse
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 NOTHING = {AZ: NO_TRIES, EL: NO_TRIES}
@@ -27,13 +27,6 @@ def path(tmp_path: Path) -> Path:
 @pytest.fixture
 def memory(tmp_path: Path) -> Path:
     return tmp_path / "memory"
-
-
-def refuse(path: Path) -> Path:
-    """A folder stands where the new content would be written: the card refuses until it is gone."""
-    blocked = path.with_name(path.name + NEW)
-    blocked.mkdir(parents=True)
-    return blocked
 
 
 def test_without_a_file_nothing_was_tried_and_nothing_is_written(path: Path) -> None:
