@@ -22,7 +22,7 @@ class Axis(Enum):
     ELEVATION = "elevation"
 
     __hash__ = object.__hash__
-    """By identity: the one of Enum costs more than the rest of a look into a dict, a hundred times a cycle."""
+    """By identity: Enum's own hash takes longer than the rest of a dict look-up, of which a cycle makes a hundred."""
 
 
 class Direction(IntEnum):

@@ -16,9 +16,9 @@ Vector = tuple[float, float, float]
 @dataclass(frozen=True, slots=True)
 class MountSpec:
     ia_deg: float = 0.0
-    """The azimuth scale reads so much too much."""
+    """How much the azimuth scale reads too much."""
     ie_deg: float = 0.0
-    """The elevation scale reads so much too little."""
+    """How much the elevation scale reads too little."""
     an_deg: float = 0.0
     """The mast leans to the north."""
     aw_deg: float = 0.0

@@ -24,8 +24,8 @@ class SmbusI2C:
         self._name = name
         self._closed = False
         self._questions: dict[tuple[int, int, tuple[bytes, ...], int], _Question] = {}
-        """By thread: a question is asked some ten times a second, and to make its messages takes longer than to send
-        them to the kernel."""
+        """The questions asked before, by thread. A question comes some ten times a second, and building its messages
+        takes longer than sending them to the kernel."""
 
     def write(self, address: int, data: bytes) -> None:
         self._transfer(address, _written(address, data))
@@ -37,7 +37,7 @@ class SmbusI2C:
         return self._ask(address, tuple(bytes((register,)) for register in registers), count)
 
     def _ask(self, address: int, writes: tuple[bytes, ...], count: int) -> list[bytes]:
-        """Write and read for each of these, in one transfer."""
+        """Write each of `writes` and read `count` bytes after it, all in one transfer. Raises HardwareError."""
         key = get_ident(), address, writes, count
         question = self._questions.get(key)
         if question is None:

@@ -34,7 +34,7 @@ SETTLING_S = 0.05
 SHAKEN_G = 0.15
 """A reading further from 1 g than this is shaken by the motor or the wind, and not used."""
 AVERAGED_OVER_S = 0.3
-"""A result is the average of the good readings of so many seconds. While the board shakes, these are older readings."""
+"""A result is the mean of the good readings of this many seconds. While the board shakes, these are older readings."""
 LEAST_IN_PLANE_G = 0.5
 """With less gravity than this in the plane in which the boom turns, the board lies on its side."""
 

@@ -26,7 +26,7 @@ PLACE_TOLERANCE_DEG = 0.8 * BESIDE_DEG
 SAME_DEG = 0.25
 """A target that has moved by less needs no new way."""
 MORE_ROOM_DEG = 0.1
-"""A motor that needs so much more room before a sector than was known needs other ways."""
+"""If a motor needs this much more room before a sector than was known, the ways are computed anew."""
 
 
 class GoingRound:

@@ -13,7 +13,7 @@ LEAST_S = 0.9
 """Angles over a shorter time show no speed: the antenna may coast a little longer than its known coast."""
 SLOWEST_DPS = 0.5
 NOISES = 8.0
-"""A change of the angle by so many times its noise is no noise."""
+"""A change of the angle is a turn when it is more than this many times its noise."""
 
 
 class SeenTurning:

@@ -1,8 +1,8 @@
-"""The sky over the station: directions of Sun, Moon, planets and stars, and which place among the stars is where.
+"""The sky over the station: directions of Sun, Moon, planets and stars, and the place among the stars in a direction.
 
-Knows the station's place, and asks the clock that it is given. Precession, nutation and sidereal time are
-astronomy-engine's. Does not know the rotor, or bytes. Angles are in degrees. Targets are seen through air where the
-station allows for it; `Sky`, for programs that send places among the stars, leaves that to them.
+Knows the station's place; the clock is an argument. Precession, nutation and sidereal time are astronomy-engine's. Does
+not know the rotor, or bytes. Angles are in degrees. Targets are seen through air if the station allows for it. `Sky`
+computes without air, because programs that send places among the stars allow for the air themselves.
 """
 
 from __future__ import annotations

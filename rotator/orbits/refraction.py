@@ -14,10 +14,10 @@ from rotator.orbits.earth import Site
 from rotator.orbits.sight import Sight
 
 REFRACTIVITY = 315e-6
-"""At the level of the sea."""
+"""Refractive index of the air at sea level, minus 1."""
 THINS_PER_KM = 0.1361
 CURVED = 9.1e-4
-"""What the curve of the layers takes off, beside the third power."""
+"""The correction for the curved layers of the air: the factor of the third power of the cotangent."""
 LOW_DEG, HIGH_DEG = 5.0, 10.0
 """Below the first elevation only the equation is used; it is not valid above the second."""
 HORIZON_DEG = -0.76
@@ -25,7 +25,7 @@ HORIZON_DEG = -0.76
 
 
 def bent_deg(elevation_deg: float, altitude_m: float = 0.0) -> float:
-    """What the air adds to an elevation without air, for a station so high above the sea."""
+    """The degrees that the air adds to this elevation, for a station `altitude_m` above the sea."""
     low = max(elevation_deg, HORIZON_DEG)
     km = min(max(altitude_m, 0.0) / 1000.0, 3.0)
     near = 1.728 + 0.5411 * low + 0.03723 * low**2
@@ -39,7 +39,7 @@ def bent_deg(elevation_deg: float, altitude_m: float = 0.0) -> float:
 
 
 def through_air(sight: Sight, site: Site) -> Sight:
-    """How the station sees it; where it does not allow for its air, as it is."""
+    """The target as the station sees it through air; unchanged if the station does not allow for its air."""
     if not site.refraction:
         return sight
     return replace(sight, elevation_deg=min(90.0, sight.elevation_deg + bent_deg(sight.elevation_deg, site.altitude_m)))

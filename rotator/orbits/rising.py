@@ -1,8 +1,8 @@
 """The one satellite for whose rise a program's orders wait at the horizon, before they show enough to recognise it.
 
-Knows that such a program sends the azimuth at which the satellite is below the horizon, or the one at which it will
-rise, and no elevation. Knows the orders and the satellites that may be meant. Does not know what follows from it: a
-guess that is right nearly always is good enough to choose a turn of the azimuth, and not to leave the orders.
+Knows that such a program sends elevation 0, and the present azimuth of the satellite below the horizon or the azimuth
+of its rise. Knows the orders and the possible satellites. The result is a guess that is nearly always right: good
+enough to choose a turn of azimuth, not good enough to fly the satellite's path in place of the orders.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ LONGEST_WAIT_S = 180.0
 LOWEST_DEG = -15.0
 """Elevation below which no satellite near the earth is `LONGEST_WAIT_S` before its rise."""
 SWINGS_DEG = 60.0
-"""The azimuth of a satellite changes by less in this time, low in the sky."""
+"""Low in the sky the azimuth of a satellite changes by less than this in `LONGEST_WAIT_S`."""
 LEAST_ORDERS, LEAST_S = 3, 2.0
 """One order, or one that is repeated at once, may be a person's."""
 TURN_CHANCE = 2e-3
-"""Allowed chance, for all satellites together, that orders at the horizon that wait for none fit one."""
+"""The allowed chance, over all satellites, that orders at the horizon fit a rise though they wait for no satellite."""
 FASTEST_DPS = 0.5
-"""Azimuths at the horizon that are no satellite's change by up to so much in a second, in either direction."""
+"""Orders at the horizon without a satellite change their azimuth by up to this, in either direction."""
 STEP_S = 10.0
 
 
 @dataclass(frozen=True, slots=True)
 class Rising:
-    """It rises at this time, in seconds since 1970."""
+    """A satellite and the time of its rise, in seconds since 1970."""
 
     satellite: Target
     rises_s: float
@@ -47,7 +47,10 @@ class Soon:
 
 
 def soon_rising(order: Heard, seen: Iterable[tuple[Target, Sight]]) -> list[Soon]:
-    """Those that may rise near the order's azimuth. `seen`: satellites, and where they are now. Raises NotThere."""
+    """The satellites that may rise near the order's azimuth. `seen`: satellites with their present directions.
+
+    Raises NotThere.
+    """
     found = []
     for satellite, sight in seen:
         apart_deg = abs(turn_deg(sight.azimuth_deg, order.azimuth_deg))
@@ -60,9 +63,9 @@ def soon_rising(order: Heard, seen: Iterable[tuple[Target, Sight]]) -> list[Soon
 
 
 def waits_for(orders: Sequence[Heard], soon: Sequence[Soon], known: Known, likely: Collection[str]) -> Rising | None:
-    """The only satellite whose rise explains all orders, where chance hardly would. `likely`: names of those in use.
+    """The only satellite whose rise explains all orders; None: there is no such satellite, or chance explains them too.
 
-    Raises NotThere.
+    `likely`: names of the satellites in use. Raises NotThere.
     """
     lasts_s = orders[-1].utc_s - orders[0].utc_s
     at_horizon = all(order.elevation_deg == 0 for order in orders)
@@ -80,7 +83,8 @@ def waits_for(orders: Sequence[Heard], soon: Sequence[Soon], known: Known, likel
 
 
 def _rises_s(path: SampledPath, now_s: float) -> float | None:
-    """When it rises; None: not soon. One that has risen a few seconds ago may be sent by a clock that is behind."""
+    """The time of the rise; None: the satellite does not rise soon. A rise a few seconds ago counts too, because the
+    program's clock may be behind."""
     at_s, last_s = now_s + CLOCKS_S[0] - STEP_S, now_s + LONGEST_WAIT_S
     before_deg = path.at(at_s).elevation_deg
     while at_s < last_s:
@@ -92,7 +96,8 @@ def _rises_s(path: SampledPath, now_s: float) -> float | None:
 
 
 def _explains(soon: Soon, orders: Sequence[Heard], rounding: float) -> bool:
-    """By one clock of the program: it sends the azimuth of each moment, or until the rise that of the rise."""
+    """Whether this rise explains all orders by one clock of the program: each order has the satellite's azimuth of its
+    moment, or until the rise the azimuth of the rise."""
     return any(
         all(_fits(soon, order, clock_s, least_s, rounding) for order in orders)
         for least_s in (-math.inf, soon.rises_s)
@@ -107,7 +112,7 @@ def _fits(soon: Soon, order: Heard, clock_s: float, least_s: float, rounding: fl
 
 
 def _chance(soon: Soon, orders: Sequence[Heard], rounding: float) -> float:
-    """That one satellite rises in this time, where orders stand that have nothing to do with it, and moves as they."""
+    """The probability that orders without a satellite fit the rise of one satellite: its time, place and motion."""
     last, lasts_s = orders[-1], orders[-1].utc_s - orders[0].utc_s
     clocks_s = CLOCKS_S[-1] - CLOCKS_S[0]
     rate_dps = abs(soon.path.at(last.utc_s).azimuth_dps)

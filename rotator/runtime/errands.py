@@ -15,17 +15,17 @@ from rotator.rotors.port import Rotor
 log = logging.getLogger(__name__)
 
 SAID_S = 60.0
-"""For so long the status says that an errand has failed."""
+"""The status says for this time that an errand has failed."""
 
 
 class Errands:
     def __init__(self, rotor: Rotor) -> None:
         self._rotor = rotor
         self._failed: dict[str, tuple[float, str]] = {}
-        """By what was to be done: when it failed last, and why."""
+        """By errand in words: when it last failed, and why."""
 
     def run(self, errands: Iterable[Errand], now_s: float) -> None:
-        """Carry them out. What the rotor refuses is said; the person who ordered it has been answered already."""
+        """Carry the errands out. A refused one is logged and in `notices`: the answer to its order was sent before."""
         for errand in errands:
             name = _name(errand)
             try:
@@ -42,7 +42,7 @@ class Errands:
 
 
 def _name(errand: Errand) -> str:
-    """What it means for a person that this errand failed."""
+    """The failure of this errand, in words for a person."""
     match errand:
         case Acknowledge(axis):
             return f"the fault of {axis.value} is not acknowledged"

@@ -79,7 +79,7 @@ class ControlLoop:
         self._failure: Exception | None = None
         """The bug that ended another thread. Without that thread nothing may move."""
         self.unkept: tuple[str, ...] = ()
-        """What cannot be written to its file, and why, for a person. Set by who writes it."""
+        """Sentences for a person about knowledge that cannot be written to its file. `Autosave` sets them."""
         self._late_s = 0.0
         self._supply_cut = self._links_lost = False
         self.status: Status = controller.status(clock())

@@ -17,17 +17,18 @@ from multiprocessing.context import SpawnProcess
 from typing import Any, TypeVar
 
 POLITE = 10
-"""Its niceness: what turns the motors comes first."""
+"""The niceness of the process: the control loop comes first."""
 END_S = 2.0
 MOST_BYTES = 500_000_000
-"""Of address space. The whole public catalogue takes 100 MB; what needs more must not take the box its memory."""
+"""The limit of the process's address space. The whole public catalogue needs 100 MB; a job that needs more than the
+limit must not take the memory of the box."""
 Result = TypeVar("Result")
 
 
 class OwnProcess:
     """The process starts with the first job, and ends with `close`. `compute` belongs to one thread.
 
-    `longest_s`: a job that takes longer is given up. `once`: the process ends after each job, for jobs that are seldom.
+    `longest_s`: a job that takes longer is given up. `once`: the process ends after each job, for rare jobs.
     """
 
     def __init__(self, longest_s: float, *, once: bool = False) -> None:
@@ -37,7 +38,7 @@ class OwnProcess:
         self._pipe: Connection | None = None
         self._closed = False
         self._lock = threading.Lock()
-        """A process starts, ends and is closed one after the other, whichever thread does it."""
+        """Held while the process starts, ends or is closed, because several threads may do that."""
 
     def compute(self, job: Callable[..., Result], *given: Any) -> Result:
         """Raises what the job raises; RuntimeError where the process fails; ValueError where it lacks memory."""
@@ -59,7 +60,7 @@ class OwnProcess:
         return result
 
     def close(self) -> None:
-        """From any thread. A job that is under way fails, and none is taken any more."""
+        """From any thread. The present job fails, and so does each later one."""
         with self._lock:
             self._closed = True
             if self._process is not None:

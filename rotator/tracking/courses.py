@@ -176,5 +176,5 @@ def _changed(one: SeenPass, before: Course, after: Course, travel: Travel) -> Co
 
 
 def _looks(travel_s: float, step_s: float) -> int:
-    """The looks that pass until the antenna is there."""
+    """The number of looks until the antenna is there."""
     return max(1, math.ceil(travel_s / step_s))

@@ -125,7 +125,7 @@ class Follower:
             log.info("the plan's next pass: %s", upcoming.flight.order.name)
 
     def _fly(self, flight: NextFlight, now: Now) -> bool:
-        """Order the flight, unless a stop or another sender came since the plan began. Returns whether it did."""
+        """Order the flight, unless a stop or another sender came since the plan began. Returns whether it is flown."""
         with self._lock:
             status = self._box.status()
             if not self._may_fly(status, now):

@@ -66,7 +66,7 @@ class StreamListener:
         """The satellite of the last plan, and when it was planned, on the loop's clock."""
         self._planned_s = 0.0
         self._led: dict[Source, Rising] = {}
-        """For which rise the turn of each source was chosen last."""
+        """By source: the rise for which the turn of azimuth was last chosen."""
 
     def hear(self, source: Source, order: Order) -> None:
         self._heard.append((source, order, self._utc()))

@@ -43,7 +43,7 @@ class Now:
     utc_s: float
     loop_s: float
     clock_s: float = 0.0
-    """By how much the first may be wrong."""
+    """The possible error of UTC, in seconds."""
 
     @property
     def apart_s(self) -> float:

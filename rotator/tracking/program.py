@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from rotator.control.sky.flight_plan import Antenna, plan_as_told, plan_flight
+from rotator.control.sky.flight_plan import Antenna, plan_flight, plan_given_angles
 from rotator.control.sky.known_path import KnownPath, Row
 from rotator.control.sky.named_turns import axis_rows, names_turns, on_the_sky, smooth_turns
 from rotator.control.sky.timed_table import TimedTable, hindrance, smooth
@@ -37,7 +37,7 @@ def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
     if begin_s > now.loop_s + AHEAD_S:
         raise CannotFly(f"{table.name} begins in {(begin_s - now.loop_s) / 86_400:.0f} days: that is too far ahead")
     if names_turns(table.rows):
-        return _as_told(table, later_s, antenna, now)
+        return _as_written(table, later_s, antenna, now)
     points = smooth(table.rows)
     if fault := hindrance(table, points, antenna.mount):
         raise CannotFly(f"{table.name}, {fault}")
@@ -48,7 +48,7 @@ def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
     return NextFlight(begin_s + now.apart_s, piece_s + now.apart_s, order)
 
 
-def _as_told(table: TimedTable, later_s: float, antenna: Antenna, now: Now) -> NextFlight:
+def _as_written(table: TimedTable, later_s: float, antenna: Antenna, now: Now) -> NextFlight:
     """The table names its turns: nothing is chosen. Raises CannotFly."""
     points = smooth_turns(table.rows)
     axes = axis_rows(table, points, antenna.mount)
@@ -59,7 +59,7 @@ def _as_told(table: TimedTable, later_s: float, antenna: Antenna, now: Now) -> N
     piece_s = min(end_s, begin_s + LONGEST_S)
     sky = [on_the_sky((at_s + later_s, azimuth_deg, elevation_deg)) for at_s, azimuth_deg, elevation_deg in points]
     path = _between(sky, begin_s, piece_s)
-    order = plan_as_told(table.name, path.rows, axes, antenna, now.loop_s, span_s=(begin_s, piece_s))
+    order = plan_given_angles(table.name, path.rows, axes, antenna, now.loop_s, span_s=(begin_s, piece_s))
     return NextFlight(begin_s + now.apart_s, piece_s + now.apart_s, replace(order, sets_s=end_s, table=True))
 
 

@@ -51,14 +51,14 @@ class Heard:
 
 @dataclass(frozen=True, slots=True)
 class Middle:
-    """Where the target is in the middle of the beam: so far to the right and above. A doubt is a standard error."""
+    """Where the target is in the middle of the beam: degrees to the right and above. A doubt is a standard error."""
 
     right_deg: float
     above_deg: float
     right_doubt_deg: float
     above_doubt_deg: float
     rise_db: float
-    """How much stronger the signal is there than at the weakest place."""
+    """How much stronger the signal is in the middle than at the weakest place."""
     noise_db: float
     """The difference (rms) between the measured strengths and the fit."""
     beam_deg: tuple[float, float]

@@ -80,7 +80,7 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
     )
 
 
-def plan_as_told(
+def plan_given_angles(
     name: str, rows: Sequence[Row], axes: Sequence[Row], antenna: Antenna, now_s: float, *, span_s: tuple[float, float]
 ) -> Fly:
     """A part of a path whose axis angles are given: only the motors' steps are planned.

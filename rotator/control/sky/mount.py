@@ -18,7 +18,7 @@ _EITHER_WAY_DEG = 1.0
 """A target that passes the zenith turns in azimuth by half a turn. As orders come in whole degrees, a turn that differs
 from half a turn by less than this may go either way."""
 _ROUNDS = 2
-"""After so many rounds the azimuth for an elevation at its limit is right to 0.1°, with terms of up to 5°."""
+"""After this many rounds the azimuth for an elevation at its limit is right to 0.1°, with terms of up to 5°."""
 
 
 class Unreachable(Refused):

@@ -25,17 +25,17 @@ _ON_THE_AXIS = 1e-12
 @dataclass(frozen=True, slots=True)
 class PointingModel:
     ia_deg: float = 0.0
-    """So far the azimuth scale reads too much: the boom points counter-clockwise of it."""
+    """How much the azimuth scale reads too much: the boom points counter-clockwise of it."""
     ie_deg: float = 0.0
-    """So far the boom points above what the elevation scale reads."""
+    """How far the boom points above the reading of the elevation scale."""
     an_deg: float = 0.0
-    """So far the azimuth axis, the mast, leans to the north."""
+    """How far the azimuth axis, the mast, leans to the north."""
     aw_deg: float = 0.0
-    """So far it leans to the west."""
+    """How far the azimuth axis leans to the west."""
     ca_deg: float = 0.0
-    """So far the boom points to the left of square to the elevation axis, seen from behind."""
+    """How far the boom points to the left of square to the elevation axis, seen from behind."""
     npae_deg: float = 0.0
-    """So far the elevation axis hangs down on its left, seen from behind: a raised boom leans to the left."""
+    """How far the elevation axis hangs down on its left, seen from behind: a raised boom leans to the left."""
 
     @property
     def perfect(self) -> bool:

@@ -21,7 +21,7 @@ from rotator.exchange.flight_order import PLAN_STEP_S, Step
 LONGEST_S = 240.0
 """The longest piece of the curve. If the motor stands for longer, two pieces have the same place."""
 HOPELESS = 50.0
-"""A piece is not made longer once its error costs as much as so many starts."""
+"""A piece is not made longer once its error costs as much as this many starts."""
 ROUNDS = 5
 FIRST_SHIFT_S, FIRST_SHIFT_DEG = 2.0, 1.0
 FINER = 1.7

@@ -15,7 +15,7 @@ from rotator.control.sky.known_path import Row
 from rotator.control.sky.mount import Mount
 
 SMOOTH_S = 1.0
-"""Between rows that are further apart a curve is laid with points so far apart."""
+"""Between rows that are further apart than this a curve is laid, with points this far apart."""
 
 
 @dataclass(frozen=True, slots=True)

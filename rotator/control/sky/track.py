@@ -31,7 +31,7 @@ LEAST_TRAVEL = 1.0
 """Orders that differ by less than this many steps of their rounding may come from a target that stands."""
 WHOLE_DEG = 1.0
 STOOD = 3.0
-"""The target stood if at its present speed the orders would have changed by so many steps, and they did not."""
+"""The target stood if at its present speed the orders would have changed by this many steps, and they did not."""
 LARGEST_SURPRISE_DEG = 4.0
 """An order further than this from where the path led is a new target."""
 FASTEST_APPROACH = 0.02

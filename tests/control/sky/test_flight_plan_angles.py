@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_as_told
+from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_given_angles
 from rotator.control.sky.mount import Mount, Range
 from rotator.exchange.flight_order import PLAN_STEP_S, Fly
 
@@ -26,7 +26,7 @@ def told(
     now_s: float = 990.0,
     mount: Mount = FULL,
 ) -> Fly:
-    return plan_as_told("turns", ROWS, AXES, Antenna(mount, motor, motor, (0.0, 0.0)), now_s, span_s=span_s)
+    return plan_given_angles("turns", ROWS, AXES, Antenna(mount, motor, motor, (0.0, 0.0)), now_s, span_s=span_s)
 
 
 def test_the_axes_go_straight_from_row_to_row_within_the_span() -> None:
