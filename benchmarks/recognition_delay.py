@@ -1,15 +1,15 @@
-"""How soon a satellite is recognised after its rise: `python -m benchmarks.recognition_delay [PASSES [SEED]]`.
+"""How soon a satellite is recognised after its rise: `python -m benchmarks.recognition_delay`.
 
 Passes of satellites drawn at random over stations drawn at random, sent in whole degrees by a program whose clock is up
-to 5 s off. The box knows 100 satellites; the station uses eight of them, and the one that is sent is among these, or it
+to 5 s off. The station uses eight of the satellites that the box knows, and the one that is sent is among these, or it
 is not. Rounded, and cut off. Moments count from the rise as the program sees it.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
 import random
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -80,9 +80,9 @@ def used(rise: Rise, elements: list[Elements], dice: random.Random) -> list[str]
     return names
 
 
-def main(count: int = PASSES, seed: int = 15) -> None:
+def main(count: int, seed: int, satellites: int) -> None:
     dice = random.Random(seed)
-    elements = catalogue(dice, SATELLITES)
+    elements = catalogue(dice, satellites)
     found = rises(dice, elements, count)
     for period_s in (1.0, 2.0, 5.0):
         for rounding, rounds in ROUNDINGS.items():
@@ -104,4 +104,9 @@ def main(count: int = PASSES, seed: int = 15) -> None:
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:3]))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("passes", type=int, nargs="?", default=PASSES)
+    parser.add_argument("seed", type=int, nargs="?", default=15)
+    parser.add_argument("known", type=int, nargs="?", default=SATELLITES, help="number of satellites")
+    given = parser.parse_args()
+    main(given.passes, given.seed, given.known)

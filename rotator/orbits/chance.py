@@ -11,18 +11,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rotator.orbits.sight import FULL_TURN_DEG
-from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, Second, turn_deg
+from rotator.orbits.rise_chance import rise_chance
+from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath
 
 TRAVEL_ROUNDINGS = 3.0
 LEAST_TRAVEL_DEG = 0.5
 """Degrees that a satellite must have moved before its orders show course and speed. At its rise less is enough: hardly
 any other motion begins at that place and time low in the sky."""
 RISES_DEG = 5.0
-RISE_EVERY_S = 10_800.0
-"""Mean seconds between two rises of a satellite near the earth."""
-RISING_SOON_DEG, JUST_RISEN_DEG, RISE_BIAS_DEG = -0.1, 0.15, 0.1
-"""Degrees: at the first order of a pass the satellite is between these elevations, and its azimuth this near."""
 SKY_SQUARE_DEG = 20_627.0
 """Square degrees of the sky above the horizon."""
 LOW_DEG, LOW_SHARE = 15.0, 0.5
@@ -32,11 +28,11 @@ FASTEST_DPS = 1.0
 LINE_CHANCE, RISING_LINE_CHANCE = 3e-6, 1e-5
 """Allowed chances, for all satellites together, that a moving stream without a satellite is accepted: anywhere in the
 sky, and where it begins as a satellite rises."""
-STANDING_CHANCE = 1.5e-4
+STANDING_CHANCE = 1e-4
 """The same for a stream that stands at the horizon from its beginning on."""
-LIKELY_SHARE, MOST_LIKELY = 0.9, 12
-"""The satellites that this station uses have this share of `STANDING_CHANCE`, and all others have the rest. Among more
-satellites no share is large enough."""
+LIKELY_SHARE, MOST_LIKELY = 0.5, 12
+"""The satellites that this station uses have this share of `STANDING_CHANCE`, and all others have the rest. So many of
+them are recognised after eight seconds, rounded or cut off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +43,7 @@ class Known:
     likely: int
     up: int
 
-    def standing_chance(self, *, likely: bool) -> float:
+    def standing_share(self, *, likely: bool) -> float:
         """The share of one satellite in `STANDING_CHANCE`. The shares of all satellites add up to it."""
         if self.likely in (0, self.all):
             return STANDING_CHANCE / max(1, self.all)
@@ -108,29 +104,3 @@ def _lines_a_square_deg(orders: Sequence[Heard]) -> float:
     if orders[-1].elevation_deg < LOW_DEG:
         return LOW_SHARE / (low * SKY_SQUARE_DEG)
     return (1.0 - LOW_SHARE) / ((1.0 - low) * SKY_SQUARE_DEG)
-
-
-def rise_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
-    """The probability that a stream that stands at the horizon begins when and where one satellite rises; 1: it does
-    not begin as this one rises.
-
-    Looks closer than `stream_fit`: a program whose elements or place differ more is recognised when it has moved.
-    """
-    first = orders[0]
-    rising = [seen for clock_s in clocks_s if _rises(seen := path.at(first.utc_s + clock_s), first, rounding)]
-    if first.elevation_deg > 0 or not rising:
-        return 1.0
-    rises_s = (JUST_RISEN_DEG - RISING_SOON_DEG) / rising[0].elevation_dps
-    span_s = CLOCKS_S[-1] - CLOCKS_S[0] + rises_s
-    # An azimuth that is cut off is up to a whole rounding too low, one that is rounded half of it too high.
-    wide_deg = 1.5 * rounding + 2 * RISE_BIAS_DEG + rises_s * abs(rising[0].azimuth_dps)
-    return span_s / RISE_EVERY_S * wide_deg / FULL_TURN_DEG
-
-
-def _rises(seen: Second, first: Heard, rounding: float) -> bool:
-    over_deg = turn_deg(seen.azimuth_deg, first.azimuth_deg)
-    return (
-        RISING_SOON_DEG <= seen.elevation_deg <= JUST_RISEN_DEG
-        and seen.elevation_dps > 0
-        and -rounding - RISE_BIAS_DEG <= over_deg <= rounding / 2 + RISE_BIAS_DEG
-    )

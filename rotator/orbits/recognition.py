@@ -26,9 +26,9 @@ from rotator.orbits.chance import (
     has_moved,
     has_told,
     line_chance,
-    rise_chance,
     rising_line_chance,
 )
+from rotator.orbits.rise_chance import standing_chance
 from rotator.orbits.rising import LOWEST_DEG, Rising, Soon, soon_rising, waits_for
 from rotator.orbits.sight import NotThere, Sight, Target
 from rotator.orbits.stream_fit import (
@@ -237,8 +237,9 @@ class _Listener:
             return None
         if not has_moved(told):
             # In whole degrees a satellite may stand for 15 s after its rise. Then only place and time identify it.
-            allowed = self._known.standing_chance(likely=path.satellite.name in self._likely)
-            if rise_chance(path, orders, clocks_s, rounding) > allowed:
+            if standing_chance(path, orders, clocks_s, rounding) > self._known.standing_share(
+                likely=path.satellite.name in self._likely
+            ):
                 return None
         elif not has_told(path, told, rounding) or not self._is_no_chance(path, told, clocks_s, rounding):
             return None

@@ -1,0 +1,91 @@
+"""A stream that begins at the horizon, and a satellite that rises there: whether they fit, and how likely by chance.
+
+Knows how often satellites rise, and how long their rounded directions stand after it. Does not know which probability
+is small enough. Looks closer than `stream_fit`: a program whose elements or place differ more from ours is recognised
+when its orders have moved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from rotator.orbits.sight import FULL_TURN_DEG
+from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath, Second, turn_deg
+
+RISE_EVERY_S = 10_800.0
+"""Mean seconds between two rises of a satellite near the earth."""
+RISING_SOON_DEG, JUST_RISEN_DEG, RISE_BIAS_DEG = -0.07, 0.13, 0.07
+"""Degrees: at the first order of a pass the satellite is between these elevations, and its azimuth this near."""
+STANDING = (
+    (8.0, 2.8e-6, 4.3e-6),
+    (9.0, 2.4e-6, 3.9e-6),
+    (10.0, 1.9e-6, 3.4e-6),
+    (11.0, 1.2e-6, 2.7e-6),
+    (12.0, 0.6e-6, 2.2e-6),
+    (14.0, 0.1e-6, 1.5e-6),
+    (17.0, 0.0, 0.9e-6),
+    (20.0, 0.0, 0.4e-6),
+    (30.0, 0.0, 0.0),
+)
+"""Seconds; then the probabilities that a stream which stands in whole degrees for this time fits the rise of one
+satellite by chance: if it is rounded, and if it is rounded or cut off. For orbits near the earth at random."""
+
+
+def rise_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
+    """The probability that a stream begins when and where one satellite rises; 1: it does not begin as this one
+    rises."""
+    first = orders[0]
+    # An azimuth that is cut off is up to a whole rounding too low, one that is rounded half of it too high.
+    rising = [
+        seen
+        for clock_s in clocks_s
+        if _rises(seen := path.at(first.utc_s + clock_s))
+        and -rounding - RISE_BIAS_DEG <= turn_deg(seen.azimuth_deg, first.azimuth_deg) <= rounding / 2 + RISE_BIAS_DEG
+    ]
+    if first.elevation_deg > 0 or not rising:
+        return 1.0
+    rises_s = (JUST_RISEN_DEG - RISING_SOON_DEG) / rising[0].elevation_dps
+    span_s = CLOCKS_S[-1] - CLOCKS_S[0] + rises_s
+    wide_deg = 1.5 * rounding + 2 * RISE_BIAS_DEG + rises_s * abs(rising[0].azimuth_dps)
+    return span_s / RISE_EVERY_S * wide_deg / FULL_TURN_DEG
+
+
+def standing_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
+    """The probability that a stream which stands at the horizon from its beginning fits the rise of one satellite;
+    1: it does not fit the rise of this one.
+
+    Most satellites would have moved on after some seconds, so the longer it stands, the fewer remain.
+    """
+    if orders[0].elevation_deg > 0:
+        return 1.0
+    lasts_s = orders[-1].utc_s - orders[0].utc_s
+    for column, cut_deg in ((1, 0.0), (2, rounding / 2)):
+        if any(_stands(path, orders, clock_s, rounding, cut_deg) for clock_s in clocks_s):
+            return _measured(lasts_s, column)
+    return 1.0
+
+
+def _rises(seen: Second) -> bool:
+    return RISING_SOON_DEG <= seen.elevation_deg <= JUST_RISEN_DEG and seen.elevation_dps > 0
+
+
+def _stands(path: SampledPath, orders: Sequence[Heard], clock_s: float, rounding: float, cut_deg: float) -> bool:
+    """Whether it rises at the first order, and its rounded direction is the same until the last. `cut_deg`: by so much
+    orders are too low that are cut off."""
+    first, last = orders[0], orders[-1]
+    begin, end = path.at(first.utc_s + clock_s), path.at(last.utc_s + clock_s)
+    loose_deg = rounding / 2 + RISE_BIAS_DEG
+    return (
+        _rises(begin)
+        and end.elevation_deg <= loose_deg + cut_deg
+        and all(abs(turn_deg(seen.azimuth_deg, first.azimuth_deg) + cut_deg) <= loose_deg for seen in (begin, end))
+    )
+
+
+def _measured(lasts_s: float, column: int) -> float:
+    for before, after in pairwise(STANDING):
+        if lasts_s < after[0]:
+            share = max(0.0, lasts_s - before[0]) / (after[0] - before[0])
+            return before[column] + share * (after[column] - before[column])
+    return 0.0
