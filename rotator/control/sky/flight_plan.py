@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 
 from rotator.control.sky.known_path import KnownPath, Row
 from rotator.control.sky.mount import Mount, Range
-from rotator.control.sky.pointing import LEAST_WEIGHT
 from rotator.control.sky.route import STEP_S, Speeds, Way
 from rotator.control.sky.steps import Trail, best_steps
+from rotator.control.sky.way_goals import LEAST_WEIGHT
 from rotator.control.sky.ways import Leg, Route, best_route
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly, Step
 

@@ -1,7 +1,7 @@
 """From orders for directions to goals for the axes, now and over the next minute.
 
-Knows the direction ordered, where the target is going (`track`), and on which way the antenna follows it (`route`).
-Knows nothing of the sender, of faults, or of how an axis reaches its goal.
+Knows the direction ordered, where the target is going (`track`), and on which way the antenna follows it (`route`);
+`way_goals` makes the goals of that way. Knows nothing of the sender, of faults, or of how an axis reaches its goal.
 """
 
 from __future__ import annotations
@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG, great_circle_deg
-from rotator.control.sky.goal import EVEN, AimGoal, Goals
+from rotator.control.sky.goal import AimGoal, Goals
 from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.control.sky.plan import OFFSETS_S, Path
+from rotator.control.sky.plan import OFFSETS_S
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
 from rotator.control.sky.track import Track
 from rotator.control.sky.turns import Swings
+from rotator.control.sky.way_goals import WayGoals
 from rotator.exchange.flight_order import TakeTurn
 from rotator.exchange.orders import Aim
 
@@ -24,8 +25,6 @@ ROUTE_EVERY_S = 3.0
 SURE_AFTER_S = 45.0
 """A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
 HALF_TURN_DEG = 180.0
-LEAST_WEIGHT = 0.1
-"""Near the zenith azimuth hardly matters. But an azimuth that a person orders there must still turn the antenna."""
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
 LEVEL_DEG, LEAVES_DEG = 1.0, 10.0
@@ -40,8 +39,7 @@ class Pointing:
     ) -> None:
         self._mount = mount
         self._on_sky = on_sky
-        self._azimuth_tolerance_deg = azimuth_tolerance_deg
-        self._elevation_tolerance_deg = elevation_tolerance_deg
+        self._goals = WayGoals(mount, azimuth_tolerance_deg, elevation_tolerance_deg, on_sky=on_sky)
         self._track = Track()
         self._swings = Swings()
         self._way: Way | None = None
@@ -122,10 +120,9 @@ class Pointing:
         if aim.elevation_deg is None or axis_elevation_deg is None:
             self._track.clear()
             self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped=False), azimuth_deg)
-            nearest_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
             # The antenna may still be on its way down from an order before.
             heights_deg = (elevation_deg,) if kept_deg is None else (elevation_deg, kept_deg)
-            return AimGoal(nearest_deg, min(map(self._standing_tolerance_deg, heights_deg))), None
+            return self._goals.azimuth_alone(self._way, heights_deg)
         if aim.place:
             self._track.clear()
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
@@ -154,15 +151,12 @@ class Pointing:
             raise Unreachable(f"the park position cannot be reached: {reason}") from reason
         self.forget()
         self.wanted = Aim(self._mount.park_azimuth_deg, self._mount.park_elevation_deg)
-        return (
-            AimGoal(azimuth_deg, self._standing_tolerance_deg(elevation_deg)),
-            AimGoal(elevation_deg, self._elevation_tolerance_deg),
-        )
+        return self._goals.at(azimuth_deg, elevation_deg)
 
     def raise_to(self, elevation_deg: float, azimuth_deg: float) -> AimGoal:
         """The goal for an order of elevation alone, with azimuth where it is."""
         self.wanted = Aim(self.wanted.azimuth_deg, elevation_deg)
-        return AimGoal(self._mount.clear_deg(azimuth_deg, elevation_deg), self._elevation_tolerance_deg)
+        return self._goals.elevation_alone(azimuth_deg, elevation_deg)
 
     def look_ahead(self, now_s: float, speeds: Speeds, *, had_path: bool) -> Goals | None:
         """New goals where the target moves or has stopped; None: the present goals stay."""
@@ -179,20 +173,7 @@ class Pointing:
         if not self._on_sky:
             return self._standing(now_s, settled=False)
         directions = [self._track.direction(now_s + offset_s) for offset_s in OFFSETS_S]
-        azimuths_deg, elevations_deg = [], []
-        azimuth_deg = self._way.azimuth_deg
-        for direction_az_deg, direction_el_deg in directions:
-            azimuth_deg, elevation_deg = self._mount.on_the_way(
-                direction_az_deg, direction_el_deg, azimuth_deg, flipped=self._way.flipped
-            )
-            kept_deg = self._mount.azimuth.nearest(azimuth_deg)
-            azimuths_deg.append(kept_deg)
-            elevations_deg.append(self._mount.clear_deg(kept_deg, elevation_deg))
-        weights = [max(LEAST_WEIGHT, math.cos(math.radians(el_deg))) ** 2 for _, el_deg in directions]
-        return (
-            AimGoal(azimuths_deg[0], self._azimuth_tolerance_deg, Path(now_s, azimuths_deg, weights)),
-            AimGoal(elevations_deg[0], self._elevation_tolerance_deg, Path(now_s, elevations_deg, EVEN)),
-        )
+        return self._goals.along(now_s, self._way, directions)
 
     def _is_over(self, aim: Aim) -> bool:
         """Whether the order names the way over the top, and elevation reaches it."""
@@ -255,25 +236,9 @@ class Pointing:
             axis_deg, raised_deg = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
             flipped = self._way.flipped if raised_deg is None else self._mount.model.over_the_top(raised_deg)
             self._way = Way(axis_deg, flipped)
-        way = self._way
         if wanted.elevation_deg is None:
-            return AimGoal(self._mount.azimuth.nearest(way.azimuth_deg), self._azimuth_tolerance_deg), None
-        azimuth_deg, elevation_deg = self._mount.on_the_way(
-            *direction(wanted.azimuth_deg, wanted.elevation_deg), way.azimuth_deg, flipped=way.flipped
-        )
-        azimuth_deg = self._mount.azimuth.nearest(azimuth_deg)
-        elevation_deg = self._mount.clear_deg(azimuth_deg, elevation_deg)
-        return (
-            AimGoal(azimuth_deg, self._standing_tolerance_deg(elevation_deg)),
-            AimGoal(elevation_deg, self._elevation_tolerance_deg),
-        )
-
-    def _standing_tolerance_deg(self, elevation_deg: float) -> float:
-        """The tolerance of azimuth on the sky: high up, a degree of azimuth moves the antenna by less than a degree."""
-        if not self._on_sky:
-            return self._azimuth_tolerance_deg
-        weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
-        return self._azimuth_tolerance_deg / weight
+            return self._goals.azimuth_alone(self._way)
+        return self._goals.towards(self._way, wanted.azimuth_deg, wanted.elevation_deg)
 
 
 def _leaves(before: Aim, aim: Aim) -> bool:
