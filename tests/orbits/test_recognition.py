@@ -175,10 +175,19 @@ def test_an_antenna_sent_at_its_rise_to_where_it_rises_is_let_go_when_it_has_mov
     watch: StreamWatch, name: str
 ) -> None:
     satellite, from_s = SATELLITES[name], rise_s(name)
-    recognised, departed = heard(watch, standing(path_of(satellite)(from_s)), from_s, 80)
+    azimuth_deg, _ = path_of(satellite)(from_s + 4.0)  # it has this azimuth, rounded, for eight seconds
+    recognised, departed = heard(watch, standing((azimuth_deg, 0.0)), from_s, 80)
     assert names([recognised, departed]) == [(Recognised, name), (Departed, name)]
     slowest_s = from_s + departed.orders + CLOCKS_S[0]
     assert satellite.sight(slowest_s).apart_deg(satellite.sight(from_s)) < 1.0 + DEPARTS_DEG + 0.6
+
+
+def test_an_antenna_in_a_whole_degree_that_the_satellite_leaves_at_once_is_not_taken_for_it(
+    watch: StreamWatch,
+) -> None:
+    azimuth_deg, _ = ISS(rise_s("ISS"))
+    assert 208.5 < azimuth_deg < 208.6  # and falls
+    assert heard(watch, standing((azimuth_deg, 0.0)), rise_s("ISS"), 80) == []
 
 
 def test_where_many_are_known_one_that_stands_is_none_of_them() -> None:
