@@ -25,6 +25,8 @@ from hw.ports import Direction
 
 BEYOND = 2.0
 """Closures that a shaft may stand beyond the end of its range, at most."""
+FASTER = 2.0
+"""Factor by which the measured speed of a motor may differ from its configured speed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +58,11 @@ class Cam:
     def shortest_s(self) -> float:
         """The shortest time between two changes while the rotor runs; a debounce must be much shorter."""
         return min(self.closed_deg, self.spacing_deg - self.closed_deg) / self.speed_dps
+
+    def crossing_s(self, *, closed: bool) -> float:
+        """Seconds that the contact stays closed, or open, at full speed."""
+        width_deg = self.closed_deg if closed else self.spacing_deg - self.closed_deg
+        return width_deg / self.speed_dps
 
     def reaches(self, angle_deg: float) -> bool:
         """Whether the shaft may stand there. A stop may lie somewhat beyond its angle in the configuration."""

@@ -16,13 +16,12 @@ from __future__ import annotations
 
 import copy
 import math
-from collections import deque
 from collections.abc import Iterable
-from itertools import pairwise
 
 from hw.ports import Direction
-from hw.sensors.cam import Cam
+from hw.sensors.cam import FASTER, Cam
 from hw.sensors.shaft import ReckonedShaft
+from hw.sensors.undriven import UndrivenChanges
 
 LEAST_CROSSING = 0.5
 """Share of a zone's time at full speed: no zone is crossed in less."""
@@ -36,13 +35,6 @@ TOO_SOON, TOO_LATE = 0.5, 0.75
 """Shares of the zone's width: a change this far before, or after, the angle of its edge belongs to another zone."""
 QUIET_PERIODS = 3.0
 """Periods under power without a change: the motor is held, or at its end stop, or the contact is dead."""
-TURNING_CHANGES = 4
-"""Changes at rest, as far apart as at full speed, that show a motor still under power."""
-FASTER = 2.0
-"""Factor by which the measured speed may differ from the configured speed."""
-SLOWEST, EVEN = 0.3, 1.5
-"""A motor turns evenly at this share of its configured speed or more, if its measured speeds differ by at most this
-factor."""
 
 
 class CamCount:
@@ -66,8 +58,7 @@ class CamCount:
         """Whether the last change undid the one before it. An equally soon next change restores that one."""
         self._run: tuple[tuple[int, float], ...] = ()
         """The last three zones of this run, each with the time of entry."""
-        self._undriven: deque[tuple[float, bool]] = deque(maxlen=TURNING_CHANGES)
-        """For each change at rest: its time, and whether the contact closed."""
+        self._undriven = UndrivenChanges(cam)
 
     # --- state
 
@@ -96,17 +87,7 @@ class CamCount:
     @property
     def turning(self) -> bool:
         """Whether the motor runs at its speed with no relay on: a relay has welded, or it has another supply."""
-        if not self.at_rest or len(self._undriven) < TURNING_CHANGES:
-            return False
-        # Wind can rock the antenna about an edge. Then the contact changes as often, but never as evenly.
-        shares = [
-            self._crossing_s(closed=closed) / max(later_s - earlier_s, 1e-6)
-            for (earlier_s, closed), (later_s, _) in pairwise([*self._undriven, (self._shaft.at_s, False)])
-        ]
-        *crossed, present = shares
-        slowest, fastest = min(crossed), max(crossed)
-        even = slowest >= SLOWEST and fastest <= EVEN * slowest
-        return fastest <= FASTER and (even or slowest >= 1 / FASTER) and present >= min(1.0, slowest) / FASTER
+        return self.at_rest and self._undriven.show_motor(self._shaft.at_s)
 
     @property
     def at_rest(self) -> bool:
@@ -149,7 +130,7 @@ class CamCount:
         self._shaft.feed(direction)
         if direction is not Direction.OFF:
             self._crept = False
-        self._undriven.clear()
+        self._undriven.forget()
         self._run = ()
 
     def change(self, at_s: float, *, closed: bool, lost: int = 0) -> None:
@@ -157,7 +138,7 @@ class CamCount:
         self.advance(at_s)
         self.changes += 1
         if self.at_rest:
-            self._undriven.append((at_s, closed))
+            self._undriven.note(at_s, closed=closed)
         if lost or closed is (self.zone % 2 == 0):
             self._doubt(f"{lost or 1} changes of the contact went unseen")
             self.zone += (lost or 1) * self._direction()
@@ -212,11 +193,6 @@ class CamCount:
         if direction > 0:
             return self.cam.begins_deg(self.zone + 1) - self._shaft.angle_deg
         return self._shaft.angle_deg - self.cam.begins_deg(self.zone) + self.cam.play_deg
-
-    def _crossing_s(self, *, closed: bool) -> float:
-        """Seconds that the contact stays closed, or open, at full speed."""
-        width_deg = self.cam.closed_deg if closed else self.cam.spacing_deg - self.cam.closed_deg
-        return width_deg / self.cam.speed_dps
 
     def _width_deg(self) -> float:
         return self.cam.begins_deg(self.zone + 1) - self.cam.begins_deg(self.zone)
