@@ -183,8 +183,9 @@ class Orders:
         self._tracked.note(event, takes=free and not self.lacking and not self._counts)
 
     def _may_idle(self, now_s: float) -> None:
-        """After the first order a box with an idle park may park at any time."""
-        if self._parks_idle:
+        """After the first order a box with an idle park may park at any time: not in a calibration, nor in a mode of a
+        person at the panel."""
+        if self._parks_idle and not self.attended and (self._panel.mode == "auto" or not self._panel.settled):
             for axis, orders in self.axes.items():
                 orders.goals.setdefault("idle", Goal((self._park_deg[axis],), said_s=now_s))
 

@@ -66,6 +66,12 @@ def calibration_controller(
     return build_controller(_without_limits(config, axis), learnt, commissioning=axis, trusts=trusts, latch=latch)
 
 
+def guided_controller(config: Config) -> Controller:
+    """A controller of the whole box, which a guide leads: an idle antenna does not park meanwhile."""
+    mount = config.mount.model_copy(update={"park_after_s": 0.0})
+    return build_controller(config.model_copy(update={"mount": mount}))
+
+
 def open_compass(config: Config, board: Board) -> Compass:
     """Raises HardwareError where the file has no compass. A chip that is missing shows only when it is read."""
     table = config.compass

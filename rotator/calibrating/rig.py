@@ -14,8 +14,13 @@ from typing import Protocol
 
 from hw.ports import Axis, HardwareError
 from rotator.assembly.board import Board
-from rotator.assembly.calibration import SCALES_DEG, calibration_controller, calibration_traits, open_compass
-from rotator.assembly.settings import build_controller
+from rotator.assembly.calibration import (
+    SCALES_DEG,
+    calibration_controller,
+    calibration_traits,
+    guided_controller,
+    open_compass,
+)
 from rotator.assembly.station import Station
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.compass import CompassReader
@@ -102,7 +107,7 @@ class NorthRig:
         self._saving = False
         compass = open_compass(config, Board(station.world, self._opened, clock, sleep))
         self.compass = CompassReader(compass, clock, CompassFile(corrections) if corrections else None)
-        self.loop = control_loop(config, build_controller(config), station, clock)
+        self.loop = control_loop(config, guided_controller(config), station, clock)
         self.guide = NorthGuide(north_facts(config, has_file=corrections is not None))
 
     @property

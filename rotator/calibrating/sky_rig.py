@@ -9,8 +9,8 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 
 from hw.ports import Axis
+from rotator.assembly.calibration import guided_controller
 from rotator.assembly.receiver import simulated_receiver, simulated_rigctld
-from rotator.assembly.settings import build_controller
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import Entry
@@ -55,7 +55,7 @@ class SkyRig:
         self._receiver = receiver
         config = config if receiver is None else scanning(config)
         facts = sky_facts(config, _called(target.name))
-        self.loop = control_loop(config, build_controller(config), station, clock)
+        self.loop = control_loop(config, guided_controller(config), station, clock)
         self.guide: SkyGuide = SkyGuide(facts) if receiver is None else ScanGuide(facts)
         self._seen = self._sighting()
 

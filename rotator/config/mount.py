@@ -29,7 +29,7 @@ class MountTable(Table):
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
     """The park position, on the rotor's own scale."""
     park_after_s: float = Field(0.0, ge=0, le=86_400)
-    """Park when the last order was carried out this long ago; 0: never."""
+    """In AUTO, park so long after the last order is done; 0: never."""
     horizon: list[Point] = Field(default_factory=list)
     """Points [azimuth, lowest elevation] of trees and roofs; azimuths rise from 0 to below 360."""
     forbidden: list[ForbiddenTable] = Field(default_factory=list, max_length=16)

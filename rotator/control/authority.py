@@ -97,6 +97,11 @@ class Authority:
         self._end_storm(panel)
 
     @property
+    def moves_by_itself(self) -> bool:
+        """Whether an idle antenna may park: not in a mode of a person, nor while a person stands at the rotor."""
+        return not self.latched and self.mode is Mode.AUTO and not self._attended
+
+    @property
     def mode_by(self) -> str:
         return str(self._panel or "")
 

@@ -90,8 +90,7 @@ class Controller:
                 self._take(source, order, now_s)
         self._movements.end_what_faults_end()
         with self._noting_refusals():
-            held = self._authority.latched or self._authority.mode is Mode.PARK
-            self._movements.go_on(now_s, may_park=not held)
+            self._movements.go_on(now_s, may_park=self._authority.moves_by_itself)
         self._movements.look_ahead(now_s)
         commands: dict[Axis, Command] = {}
         for axis, control in self._axes.items():

@@ -1,8 +1,9 @@
 """When an idle antenna goes to its park position by itself.
 
 The idle time begins when the last order has been carried out: its motors stand, its list has ended, its pass has set.
-After a stop, a fault or a release a person may stand on the mast, so no idle time runs until the next order. Knows
-moments, and whether the antenna is busy. Knows no order, no axis and no park position.
+After a stop, a fault or a release a person may stand on the mast, so no idle time runs until the next order; and none
+runs in a calibration, nor in a mode of a person. Knows moments, and whether the antenna is busy. Knows no order, no
+axis and no park position.
 """
 
 from __future__ import annotations

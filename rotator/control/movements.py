@@ -133,6 +133,8 @@ class Movements:
     def go_on(self, now_s: float, *, may_park: bool) -> None:
         """What begins in this cycle without a new order: the next point of a list, the next homing, the idle park.
 
+        `may_park`: an idle antenna may park. Otherwise no idle time runs before the next order.
+
         Raises Refused.
         """
         if (point := self.timed.due(now_s)) is not None:
@@ -141,7 +143,9 @@ class Movements:
         if self._homing.due():
             self._halt(BOTH)
             self._homing.begin()
-        if self._idle.due(now_s, busy=self._busy(now_s)) and may_park:
+        if not may_park:
+            self._idle.ended()
+        elif self._idle.due(now_s, busy=self._busy(now_s)):
             self.park()
 
     def _busy(self, now_s: float) -> bool:

@@ -145,6 +145,14 @@ def test_the_operator_turns_it_about_by_hand(north_calibration: Any) -> None:
     assert "Not kept" not in run.text  # there is no file to keep it in
 
 
+def test_while_the_operator_looks_on_it_does_not_park(north_calibration: Any) -> None:
+    text = (G5500 + TRUE + COMPASS).replace("[mount]\n", "[mount]\npark_after_s = 5\npark_azimuth_deg = 200\n")
+    run = mounted(north_calibration(text), 12.0)
+    run.say("r")
+    run.wait(30.0)
+    assert run.world.relay_starts == 1
+
+
 def test_stop_stops_it_on_its_way_and_the_place_may_be_left_out(north_calibration: Any) -> None:
     run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
     run.now("y")

@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.exchange.faults import FaultKind
+from rotator.exchange.faults import FaultKind, Missing
 from rotator.exchange.orders import (
     Aim,
     Confirm,
@@ -108,6 +108,27 @@ def test_what_was_halted_because_its_sender_was_lost_does_not_park(mast: Any, se
     assert parks(mast), "an order begins the idle time again"
 
 
+@pytest.mark.parametrize("mode", [Mode.MANUAL, Mode.JOG], ids=str)
+@pytest.mark.parametrize("person", [PANEL, CONSOLE, BROWSER], ids=str)
+def test_in_a_mode_of_a_person_it_does_not_park_nor_when_that_ends(mast: Any, person: Source, mode: Mode) -> None:
+    mast.step(SetMode(mode), by=person)
+    mast.step(Jog(AZ, PLUS, 2.0), by=person)
+    mast.run(4.0)
+    assert mast.angle_deg[AZ] > 105.0
+    assert mast.run(AFTER_S * 3) == set()
+    mast.step(GiveBack(), by=person)
+    assert mast.run(AFTER_S * 3) == set()
+
+
+@pytest.mark.parametrize("missing", [(), (Missing.CALIBRATION,)], ids=str)
+def test_beside_a_person_who_calibrates_an_axis_none_parks(new_desk: Any, missing: tuple[Missing, ...]) -> None:
+    desk = new_desk(at=(100.0, 30.0), park=(20.0, 10.0), park_after_s=AFTER_S, attended=True, missing={AZ: missing})
+    desk.step()
+    desk.step(Jog(AZ, PLUS, 1.0), by=Source("calibrate"))
+    assert desk.run(3.0) == {(AZ, PLUS)}
+    assert desk.run(AFTER_S * 3) == set()
+
+
 @pytest.mark.parametrize("release", [Release(), Stop((EL,)), Take(), SetMode(Mode.AUTO)], ids=str)
 def test_after_a_release_or_a_stop_it_does_not_park(mast: Any, release: Order) -> None:
     mast.step(Aim(110.0, 30.0))
@@ -189,6 +210,7 @@ class Judge:
                 self.may_park = False
         if begins and not self.ordered_park:
             assert self.may_park, "parks without a new order"
+            assert before.mode is Mode.AUTO, "parks in a mode of a person"
             assert desk.now_s - self.driven_s >= AFTER_S - 0.06, "parks too soon after a motor ran"
             assert desk.now_s >= self.list_s + AFTER_S - 0.06, "parks before the list has ended"
             assert not any(before.axis(axis).homing for axis in Axis), "parks while an axis homes"
@@ -214,7 +236,7 @@ moves = st.one_of(
 )
 ends = st.one_of(
     st.builds(Stop, st.sampled_from([tuple(Axis), (AZ,), (EL,)]), st.booleans()),
-    st.sampled_from([Release(), LetGo(), Take(), GiveBack(), Leave(), SetMode(Mode.AUTO), Confirm(AZ, 100.0)]),
+    st.sampled_from([Release(), LetGo(), Take(), GiveBack(), Leave(), *map(SetMode, Mode), Confirm(AZ, 100.0)]),
 )
 losses = st.sampled_from(["links", "page", "fault"])
 scripts = st.lists(st.tuples(sources, moves | moves | ends | losses, waits_s), min_size=1, max_size=10)
