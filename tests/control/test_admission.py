@@ -116,7 +116,7 @@ def test_a_direction_out_of_reach_is_refused_with_the_range(order: Order) -> Non
     assert refused(order) == "azimuth 355 is outside the rotor's range of 0 to 350 degrees"
 
 
-def test_where_the_antenna_cannot_point_it_may_still_be_told_to_rest() -> None:
+def test_an_elevation_that_rests_at_its_limit_or_names_a_direction_is_admitted() -> None:
     # elevation below the horizon rests at its minimum, above 90° it is a direction: neither is out of reach
     assert not refused(Aim(100, -5))
     assert not refused(Aim(100, 150))

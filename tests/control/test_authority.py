@@ -130,7 +130,7 @@ def test_s_on_a_link_does_not_open_a_latch(authority: Authority) -> None:
     assert not authority.may_move(PST, 2.0)
 
 
-def test_a_release_leaves_nobody_silenced(authority: Authority) -> None:
+def test_a_release_leaves_no_sender_silenced(authority: Authority) -> None:
     authority.may_move(GPREDICT, 0.0)
     authority.stopped(PST, 0.5, latch=False)
     authority.released()
@@ -239,7 +239,7 @@ def test_two_streams_that_disagree_change_hands_a_few_times_at_most(authority: A
     per_connection=st.tuples(st.integers(1, 8) | st.none(), st.integers(1, 8) | st.none()),
     shift_s=st.floats(0.0, 5.0),
 )
-def test_a_fight_ends_whatever_the_programs_do(
+def test_a_fight_ends_with_any_orders_of_the_programs(
     periods_s: tuple[float, float], per_connection: tuple[int | None, int | None], shift_s: float
 ) -> None:
     """Two programs at any rate; each may connect anew after so many orders (None: never)."""
@@ -361,7 +361,7 @@ def test_the_panel_s_own_stop_does_not_silence_its_switch() -> None:
     assert authority.may_move(PANEL, 10.05)
 
 
-def test_a_switch_of_the_panel_ends_a_storm_park_and_who_moved_the_antenna_moves_it_no_more() -> None:
+def test_a_turn_of_the_panel_s_switch_ends_a_storm_park_and_no_sender_moves_the_antenna_then() -> None:
     authority = Authority()
     authority.may_move(PST, 0.0)
     authority.begin_storm(CONSOLE)
@@ -393,7 +393,7 @@ def test_a_stop_ends_a_storm_park_and_what_it_latched_stays(authority: Authority
     assert not authority.may_move(PST, 2.0)
 
 
-def test_released_it_no_longer_names_those_who_were_ignored(authority: Authority) -> None:
+def test_after_a_release_no_ignored_source_is_named(authority: Authority) -> None:
     authority.stopped(CONSOLE, 0.0, latch=True)
     authority.may_move(PST, 1.0)
     assert authority.ignored(1.0) == (
@@ -403,7 +403,7 @@ def test_released_it_no_longer_names_those_who_were_ignored(authority: Authority
     assert authority.ignored(1.0) == ()
 
 
-def test_who_was_ignored_is_named_for_a_while_the_latest_first(authority: Authority) -> None:
+def test_ignored_sources_are_named_for_a_while_the_latest_first(authority: Authority) -> None:
     authority.stopped(CONSOLE, 0.0, latch=True)
     authority.may_move(PST, 1.0)
     authority.may_move(GPREDICT, 2.0)

@@ -121,7 +121,7 @@ def test_two_people_on_the_page_do_not_snatch_it_from_each_other(desk: Any) -> N
 
 
 @pytest.mark.parametrize("source", [CONSOLE, TRACKER], ids=str)
-def test_who_is_at_the_box_is_not_held_off(desk: Any, source: Source) -> None:
+def test_a_person_at_the_box_is_not_held_off(desk: Any, source: Source) -> None:
     desk.step(Take(), by=ANNA)
     desk.step(Aim(200.0, 30.0), by=source)
     assert desk.status.wanted_azimuth_deg == 200.0

@@ -47,7 +47,7 @@ def test_a_press_on_an_axis_that_is_not_commissioned_ends_by_itself(new_desk: An
     assert desk.at_rest()
 
 
-def test_another_connection_s_end_is_none_of_its_business(desk: Any) -> None:
+def test_the_end_of_another_connection_ends_nothing_of_this_one(desk: Any) -> None:
     desk.step(Jog(AZ, PLUS), by=LINK)
     assert desk.step(Leave(), by=OTHER)[AZ] is PLUS
     assert desk.step(Leave(), by=Source("rotctld", 2))[AZ] is PLUS

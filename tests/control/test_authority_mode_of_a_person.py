@@ -43,7 +43,7 @@ def test_on_the_console_each_command_has_a_connection_of_its_own() -> None:
     assert movers(switched(CONSOLE, Mode.JOG), Deed.JOG) == {CONSOLE, LATER}
 
 
-def test_who_takes_the_antenna_over_ends_the_other_person_s_mode() -> None:
+def test_a_person_who_takes_the_antenna_over_ends_the_other_person_s_mode() -> None:
     authority = switched(ANNA, Mode.MANUAL)
     authority.take(BERT, stopped=True)
     assert (authority.mode, authority.mode_by) == (Mode.AUTO, "")
@@ -51,7 +51,7 @@ def test_who_takes_the_antenna_over_ends_the_other_person_s_mode() -> None:
     assert ANNA not in movers(authority), "Bert holds it"
 
 
-def test_who_takes_it_in_the_own_mode_keeps_the_mode() -> None:
+def test_a_person_who_takes_it_in_a_mode_of_the_same_person_keeps_the_mode() -> None:
     authority = switched(ANNA, Mode.MANUAL)
     authority.take(ANNA, stopped=True)
     assert authority.mode is Mode.MANUAL
@@ -66,7 +66,7 @@ def test_giving_back_lets_programs_move_it() -> None:
 
 
 @pytest.mark.parametrize("mode", [Mode.MANUAL, Mode.JOG, Mode.PARK])
-def test_a_real_switch_is_turned_by_nobody_else(mode: Mode) -> None:
+def test_only_a_hand_turns_a_real_switch(mode: Mode) -> None:
     authority = switched(PANEL, mode)
     authority.take(ANNA, stopped=True)
     authority.give_back(ANNA)

@@ -31,7 +31,7 @@ def test_who_may_move(mode: Mode) -> None:
 
 
 @pytest.mark.parametrize("mode", [Mode.MANUAL, Mode.JOG])
-def test_it_is_the_panel_that_was_switched_and_no_other(mode: Mode) -> None:
+def test_only_the_panel_whose_switch_was_turned_may_move_it(mode: Mode) -> None:
     authority = Authority()
     authority.switch(PANEL, mode)
     assert not authority.may_move(OTHER_PANEL, 1.0)
@@ -131,7 +131,7 @@ def test_in_park_it_stays_where_it_is_and_is_not_sent_home(desk: Any) -> None:
     assert desk.angle_deg[AZ] == pytest.approx(100.0, abs=0.01)
 
 
-def test_released_in_park_it_still_obeys_nobody(desk: Any) -> None:
+def test_released_in_park_it_still_obeys_no_sender(desk: Any) -> None:
     desk.step(SetMode(Mode.PARK), by=PANEL)
     desk.step(Release(), by=PANEL)
     assert desk.step(Aim(235.0, 60.0), by=PANEL) == RESTING

@@ -102,7 +102,7 @@ def test_a_late_cycle_is_a_fault_of_both_axes_while_a_motor_runs(desk: Any, gap_
     assert kinds == ([FaultKind.CONTROL_LATE] * 2 if told else [None] * 2)
 
 
-def test_a_late_cycle_at_rest_is_none(desk: Any) -> None:
+def test_a_late_cycle_at_rest_is_no_fault(desk: Any) -> None:
     desk.step(seconds=5.0)
     desk.run(0.5)
     assert (desk.status.azimuth.fault, desk.status.elevation.fault) == (None, None)
@@ -162,7 +162,7 @@ def test_what_the_panel_remarks_of_an_axis_is_shown_until_it_takes_it_back(desk:
     assert desk.status.elevation.notices == ()
 
 
-def test_who_moves_the_antenna_is_shown_until_a_stop(desk: Any) -> None:
+def test_the_sender_that_moves_the_antenna_is_shown_until_a_stop(desk: Any) -> None:
     assert desk.status.controlled_by == ""
     desk.step(Aim(235, 60))
     assert desk.status.controlled_by == "gs232b#1"
@@ -194,7 +194,7 @@ def test_a_person_who_has_looked_at_the_relays_ends_the_doubt_of_that_axis(new_d
 @pytest.mark.parametrize(
     ("mover", "stops", "goes_on"), [("page#1", False, True), ("page#1", True, False), ("gs232b#1", False, False)]
 )
-def test_who_takes_the_antenna_stops_what_another_moves_and_may_keep_what_the_own_order_moves(
+def test_taking_the_antenna_stops_another_sender_s_motion_and_may_keep_one_s_own(
     desk: Any, mover: str, stops: bool, goes_on: bool
 ) -> None:
     desk.step(Aim(300.0, 10.0), by=BROWSER if mover == str(BROWSER) else desk.LINK)

@@ -51,7 +51,7 @@ def test_a_stream_into_it_waits_beside_it_and_goes_round_to_a_target_beyond(besi
 
 
 @pytest.mark.parametrize("described", [0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5, 2.5])
-def test_however_wrong_the_speed_in_the_file_is_it_waits_where_the_fence_lets_it_start_again(
+def test_with_any_wrong_speed_in_the_file_it_waits_where_the_fence_lets_it_start_again(
     new_desk: Any, described: float
 ) -> None:
     """The fence keeps the room that the motors need as they have been learnt; the way round keeps it too."""

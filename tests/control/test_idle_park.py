@@ -76,7 +76,7 @@ def test_after_an_end_it_waits_for_the_next_order_even_while_the_antenna_is_busy
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_however_late_it_is_asked_it_never_parks_before_the_order_has_been_done_for_its_time(
+def test_with_late_cycles_too_it_never_parks_before_the_order_has_been_done_for_its_time(
     idle: IdlePark, seed: int
 ) -> None:
     """A busy computer asks seldom. The order is carried out in pieces, with pauses that continue it."""

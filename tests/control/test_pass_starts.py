@@ -41,7 +41,7 @@ def test_the_count_stays_readable_until_the_next_pass(starts: PassStarts) -> Non
     assert starts.of(Axis.AZIMUTH) == 0
 
 
-def test_orders_that_keep_coming_are_one_pass_however_slow_the_target(starts: PassStarts) -> None:
+def test_orders_that_keep_coming_are_one_pass_also_of_a_slow_target(starts: PassStarts) -> None:
     for at_s in range(0, 3600, int(PAUSE_S) - 1):
         starts.ordered(float(at_s))
         run(starts, float(at_s), CW, OFF)

@@ -20,7 +20,7 @@ def seen(speed_dps: float, noise_deg: float = 0.0, seconds: float = 2.0, seed: i
 
 
 @pytest.mark.parametrize("speed_dps", [-6.0, -1.0, 0.6, 6.0])
-def test_it_is_told_after_a_second(speed_dps: float) -> None:
+def test_the_speed_is_shown_after_a_second(speed_dps: float) -> None:
     speeds = seen(speed_dps)
     assert set(speeds[:18]) == {0.0}
     assert speeds[-1] == pytest.approx(speed_dps)

@@ -42,7 +42,7 @@ def test_one_script_is_played_again() -> None:
     assert done.stdout.splitlines()[-1] == "nothing found"
 
 
-def test_a_script_that_is_none_and_a_kind_that_is_none(tmp_path: Path) -> None:
+def test_a_wrong_script_and_an_unknown_kind_are_errors(tmp_path: Path) -> None:
     (tmp_path / "wrong.json").write_text("{}", encoding="utf-8")
     for name in (str(tmp_path / "wrong.json"), "7.1/steam-rotor"):
         done = drills("--replay", name)

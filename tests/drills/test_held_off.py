@@ -25,7 +25,7 @@ def test_take_stops_what_goes_on_and_holds_programs_off_until_it_is_given_back()
 
 
 @pytest.mark.parametrize("what", ["aim", "jog"])
-def test_a_person_at_the_box_is_held_off_by_none(what: str) -> None:
+def test_a_person_at_the_box_is_not_held_off(what: str) -> None:
     script = Script()
     script.say("page", "take")
     script.say("console", what, *((200.0, 40.0) if what == "aim" else ("cw", 2.0)))

@@ -91,7 +91,7 @@ def test_a_contact_that_opens_a_moment_after_its_coil_does_not_end_the_sum_at_a_
     assert mast.run(1.5, coil=1) == [judges.BEYOND]
 
 
-def test_a_press_of_an_axis_that_was_never_set_up_turns_it_two_seconds_in_all_however_late_it_begins() -> None:
+def test_a_press_of_an_axis_that_was_never_set_up_turns_it_two_seconds_in_all_also_when_it_begins_late() -> None:
     mast = Mast(lacking="azimuth")
     mast.order("console", "jog", "cw", 5.0)
     mast.run(3.0)
@@ -337,7 +337,7 @@ def test_presses_of_an_axis_that_was_never_set_up_count_each_for_itself() -> Non
     assert mast.run(2.3, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
 
 
-def test_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again() -> None:
+def test_a_person_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again() -> None:
     mast = Mast(at_deg=361.0, lacking="azimuth")
     mast.case.feels = False
     for _ in range(5):
@@ -410,7 +410,7 @@ def test_a_person_who_gives_an_angle_ends_an_aim_but_neither_a_storm_park_nor_a_
     assert mast.orders.holds("azimuth") is holds
 
 
-def test_a_target_that_moves_across_the_end_is_followed_to_that_end_and_no_jump_is() -> None:
+def test_a_target_that_moves_across_the_end_is_followed_to_that_end_and_one_that_jumps_is_not() -> None:
     for steps_deg, found in (([340.0, 345.0, 350.0, 355.0, 2.0], []), ([300.0, 20.0, 20.0], [judges.AWAY])):
         mast = Mast(at_deg=200.0)
         for azimuth_deg in steps_deg:

@@ -93,7 +93,7 @@ def test_a_patch_names_what_is_wrong_and_who_should_see_it() -> None:
     assert bug.paths == ("motor.py",)
 
 
-def test_a_patch_fits_wherever_its_lines_stand_now(tree: Path) -> None:
+def test_a_patch_fits_at_any_place_of_its_lines(tree: Path) -> None:
     (tree / "motor.py").write_text("# new\n" * 40 + "def speed(way):\n    return way * 6\n")
     plant(parse("sign", PATCH), tree)
     assert (tree / "motor.py").read_text().endswith("def speed(way):\n    return 6\n")

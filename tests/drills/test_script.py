@@ -23,7 +23,7 @@ KINDS = pytest.mark.parametrize("rotor", ROTORS, ids=lambda rotor: rotor.kind)
 
 @pytest.mark.search
 @pytest.mark.parametrize("path", some(KNOWN), ids=lambda path: path.stem)
-def test_a_counterexample_that_was_found_once_is_none_any_more(path: Path) -> None:
+def test_a_counterexample_that_was_found_once_shows_nothing_now(path: Path) -> None:
     assert verdict(Drill.from_json(path.read_text(encoding="utf-8"))) == []
 
 
@@ -36,7 +36,7 @@ def test_a_seed_draws_one_drill_and_its_text_says_it_all(rotor: Rotor) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"format": "drill 0"}', '{"format": "drill 1", "start_deg": [1, 2]}'])
-def test_what_is_no_drill_is_said_to_be_none(text: str) -> None:
+def test_a_text_that_is_no_drill_is_refused_with_the_reason(text: str) -> None:
     with pytest.raises(ValueError, match=r"no drill|format|Expecting"):
         Drill.from_json(text)
 

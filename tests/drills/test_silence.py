@@ -33,7 +33,7 @@ class Room:
 
 
 @pytest.mark.parametrize("fault", ["azimuth-pot-open", "azimuth-every:18", "azimuth-pot-crackles:20"])
-def test_what_shows_at_rest_is_told_within_five_seconds(fault: str) -> None:
+def test_a_fault_that_shows_at_rest_is_reported_within_five_seconds(fault: str) -> None:
     room = Room()
     room.silence.begin(fault, 0.0)
     assert room.listen(5.0) == []
@@ -87,7 +87,7 @@ def test_that_a_target_is_tracked_no_longer_tells_no_fault() -> None:
     assert room.listen(60.0) == [SILENCE]
 
 
-def test_a_reading_that_is_bad_now_and_then_need_not_be_told() -> None:
+def test_a_reading_that_is_bad_now_and_then_need_not_be_reported() -> None:
     room = Room()
     room.silence.begin("azimuth-every:21", 0.0)
     assert room.listen(60.0) == []
@@ -118,7 +118,7 @@ def test_a_contact_that_stands_still_shows_after_three_of_its_periods(counts: bo
     assert room.listen(0.3) == [SILENCE]
 
 
-def test_what_a_stop_heals_need_not_be_told_after_it() -> None:
+def test_a_fault_that_a_stop_heals_need_not_be_reported_after_it() -> None:
     room = Room()
     room.silence.begin("azimuth-encoder", 0.0)
     room.listen(1.0)

@@ -56,7 +56,7 @@ def test_each_fault_is_judged_or_excused_in_words(name: str) -> None:
     assert (name in SEEN) != (name in UNTOLD)
 
 
-def test_no_rule_and_no_excuse_is_about_a_fault_that_there_is_not() -> None:
+def test_each_rule_and_each_excuse_is_about_a_fault_of_a_simulator() -> None:
     of_the_drills = {"hung", "every"}
     assert (set(SEEN) | set(UNTOLD)) - of_the_drills == set(FAULTS)
 
@@ -73,5 +73,5 @@ def test_no_rule_and_no_excuse_is_about_a_fault_that_there_is_not() -> None:
         ("elevation-relay-welded-down", True),
     ],
 )
-def test_what_is_seldom_bad_need_not_be_told(name: str, *, told: bool) -> None:
+def test_readings_that_are_seldom_bad_need_not_be_reported(name: str, *, told: bool) -> None:
     assert (rule(name) is not None) == told

@@ -55,7 +55,7 @@ def test_capitals_hyphens_and_blanks_do_not_count(said: str) -> None:
         ("", '"" is not among the 3'),
     ],
 )
-def test_a_wrong_name_is_told_with_what_is_near(said: str, told: str) -> None:
+def test_a_wrong_name_is_an_error_with_similar_names(said: str, told: str) -> None:
     with pytest.raises(Unknown, match=told):
         Catalogue([str(TLE)]).find(said)
 

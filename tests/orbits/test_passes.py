@@ -78,7 +78,7 @@ def test_passes_are_as_many_as_the_geometry_has(top_deg: float, shift_s: float) 
         assert each.highest.elevation_deg == pytest.approx(top_deg, abs=1e-3)
 
 
-def test_a_pass_that_is_on_is_told_whole() -> None:
+def test_a_pass_that_is_on_is_given_with_its_whole_length() -> None:
     whole = list(passes(Satellite(FLYING["ISS"], PARIS), FLYING["ISS"].epoch_utc_s, FLYING["ISS"].epoch_utc_s + DAY_S))
     first = whole[0]
     assert first.los_s is not None

@@ -60,7 +60,7 @@ def test_rates_are_the_change_of_the_direction() -> None:
         assert moving.elevation_dps == pytest.approx((after.elevation_deg - before.elevation_deg) / 4, abs=0.01)
 
 
-def test_elements_that_have_come_down_are_told() -> None:
+def test_elements_of_a_satellite_that_has_come_down_are_an_error() -> None:
     falling = replace(FLYING["ISS"], drag_per_earth_radius=0.05)
     with pytest.raises(NotThere, match="ISS: "):
         Satellite(falling, PARIS).sight(falling.epoch_utc_s + 300 * DAY_S)

@@ -160,7 +160,7 @@ CALIBRATIONS = (Calibrate(Axis.AZIMUTH, high_end=False), Calibrate(Axis.ELEVATIO
 
 @pytest.mark.parametrize("works", range(7))
 @pytest.mark.parametrize("breaks", range(6))
-def test_whenever_the_card_refuses_each_calibration_is_in_the_file_in_the_end(
+def test_a_card_may_refuse_at_any_time_and_each_calibration_is_in_the_file_in_the_end(
     path: Path, breaks: int, works: int, caplog: pytest.LogCaptureFixture
 ) -> None:
     """The card breaks before one of the events, and works again before a later one, or before the end."""

@@ -188,7 +188,7 @@ def test_two_axes_are_two_kinds(bench: Bench) -> None:
     assert bench.drives() == (1, 1)
 
 
-def test_nobody_pays_for_another_connection(bench: Bench) -> None:
+def test_the_orders_of_one_connection_do_not_count_against_another(bench: Bench) -> None:
     flood, other = bench.client(1, most_per_s=5), bench.client(2, most_per_s=5)
     for _ in range(100):
         flood.order(Aim(100, 25))
@@ -207,7 +207,7 @@ def test_a_real_program_never_reaches_it(bench: Bench, caplog: pytest.LogCapture
     assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
 
 
-def test_it_is_told_once(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+def test_too_many_orders_are_logged_once(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
     client = bench.client(most_per_s=10)
     for _ in range(1000):
         client.order(Aim(300, 25))

@@ -29,23 +29,23 @@ def deaths(work: Callable[[], None]) -> list[str]:
     return [str(each) for each in heard]
 
 
-def test_a_thread_that_dies_is_told_by_its_name_and_its_mistake_is_in_the_log(caplog: pytest.LogCaptureFixture) -> None:
+def test_a_thread_that_dies_is_reported_by_name_and_its_mistake_is_in_the_log(caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level(logging.ERROR):
         assert deaths(raises(KeyError("rows"))) == ["the thread 'display' has ended by a mistake of the program"]
     assert "please report it" in caplog.text
     assert "KeyError: 'rows'" in caplog.text
 
 
-def test_a_thread_that_returns_is_not_told() -> None:
+def test_a_thread_that_returns_is_not_reported() -> None:
     assert deaths(lambda: None) == []
 
 
-def test_one_that_a_library_has_sent_away_is_told_too() -> None:
+def test_a_thread_that_a_library_has_ended_is_reported_too() -> None:
     """That of the moteus calls sys.exit when one of its handlers fails."""
     assert deaths(lambda: sys.exit(1)) == ["the thread 'display' has ended by a mistake of the program"]
 
 
-def test_each_one_is_told() -> None:
+def test_each_dead_thread_is_reported() -> None:
     heard: list[HardwareError] = []
     with dead_threads(heard.append):
         threads = [threading.Thread(target=raises(OSError("x")), name=name) for name in ("latch", "signals")]

@@ -133,7 +133,7 @@ def scripts(events: Events) -> Iterator[Sequence[tuple[Events, Events, bool]]]:
     ("left", "notes"),
     [(None, (STOP,)), (STOP, (None,)), (None, (STOP, STORM)), (None, (None, STOP)), (STOP, (STOP, None))],
 )
-def test_what_was_noted_last_is_in_the_file_whenever_the_card_is_slow_or_refuses(
+def test_with_a_card_that_is_slow_or_refuses_at_any_time_the_file_has_the_latest_note(
     tmp_path: Path, left: Latch | None, notes: tuple[Latch | None, ...]
 ) -> None:
     """Each order of the notes, the end, and the begin, the end and the outcome of a write."""

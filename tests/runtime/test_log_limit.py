@@ -31,14 +31,14 @@ def test_once_and_then_every_minute_with_a_count(clock: Clock) -> None:
     ]
 
 
-def test_another_complaint_is_told_at_once(clock: Clock) -> None:
+def test_another_complaint_is_logged_at_once(clock: Clock) -> None:
     limit = LogLimit(clock)
     assert limit.admit("one") == "one"
     assert limit.admit("other") == "other"
     assert limit.admit("one") is None
 
 
-def test_one_that_is_different_each_time_is_soon_told_no_more(clock: Clock) -> None:
+def test_a_complaint_that_is_different_each_time_is_soon_not_logged_any_more(clock: Clock) -> None:
     limit = LogLimit(clock)
     assert [limit.admit(f"azimuth {n}") is not None for n in range(100)] == [True] * MOST + [False] * (100 - MOST)
     clock.now_s += EVERY_S

@@ -276,7 +276,7 @@ class FailingLines:
 
 
 @pytest.mark.parametrize("fails", list(itertools.product((False, True), repeat=5)), ids=str)
-def test_whichever_line_fails_the_status_says_what_the_relays_may_do(fails: tuple[bool, ...]) -> None:
+def test_with_any_line_failing_the_status_says_what_the_relays_may_do(fails: tuple[bool, ...]) -> None:
     """A relay that could not be opened is still driven: watches that heard of an opening would judge it by that."""
     rig = Rig()
     bank = RelayBank(FailingLines(fails), rig.clock, dead_time_s=0.5)
@@ -309,7 +309,7 @@ def test_it_waits_for_the_cycle_and_no_longer(rig: Rig) -> None:
         assert relays.come_to(1, 0)
 
 
-def test_who_moves_it_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
+def test_the_sender_that_moves_it_is_logged_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(logging.INFO)
     for second in range(20):
         rig.loop.post(LINK if second % 2 else Source("rotctld", 2), Aim(300.0, 20.0))

@@ -130,7 +130,7 @@ def test_a_silent_sensor_is_no_reason_to_stop_it(rig: Rig) -> None:
     assert rig.signs == 20
 
 
-def test_a_heartbeat_line_that_fails_is_told_of_and_stops_nothing(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
+def test_a_heartbeat_line_that_fails_is_logged_and_stops_nothing(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
     def fail() -> None:
         raise HardwareError("GPIO: cannot switch heartbeat")
 

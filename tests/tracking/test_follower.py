@@ -59,7 +59,7 @@ def test_after_a_start_it_rests_for_ten_minutes_for_a_link_may_have_stopped_the_
 
 @pytest.mark.search
 @pytest.mark.parametrize(("source", "order"), some([(PERSON, Stop(latch=True)), (PC, Aim(100.0, 10.0))]))
-def test_who_takes_the_antenna_has_it_for_ten_minutes_and_the_next_pass_is_flown_again(
+def test_a_sender_that_takes_the_antenna_has_it_for_ten_minutes_and_the_next_pass_is_flown_again(
     rise: Box, source: Source, order: Aim | Stop
 ) -> None:
     rise.wait(170.0)
@@ -134,7 +134,7 @@ def asks(rise: Box, source: Source | None = None) -> str:
 
 
 @pytest.mark.parametrize("words", ["moon", "180 45"])
-def test_who_asks_for_the_plan_ends_what_else_the_box_tracks_and_the_next_pass_is_flown(rise: Box, words: str) -> None:
+def test_a_request_for_the_plan_ends_other_tracking_and_the_next_pass_is_flown(rise: Box, words: str) -> None:
     assert rise.tracker.track(words) == ""
     rise.wait(5.0)
     assert rise.loop.status.moving
@@ -157,7 +157,7 @@ def test_a_flight_that_no_plan_has_replaced_yet_ends_too(rise: Box) -> None:
     assert not rise.loop.status.moving
 
 
-def test_who_asks_for_the_plan_again_leaves_its_flight_alone(rise: Box) -> None:
+def test_a_second_request_for_the_plan_leaves_its_flight_alone(rise: Box) -> None:
     rise.wait(170.0)
     heard: list[Order] = []
     rise.after_heard = heard.append
@@ -168,7 +168,7 @@ def test_who_asks_for_the_plan_again_leaves_its_flight_alone(rise: Box) -> None:
 
 
 @pytest.mark.parametrize("source", [None, PAGE])
-def test_who_asks_for_the_plan_ends_its_rest(rise: Box, source: Source | None) -> None:
+def test_a_request_for_the_plan_ends_its_rest(rise: Box, source: Source | None) -> None:
     rise.loop.post(source or PC, Aim(100.0, 10.0))
     rise.wait(5.0)
     assert asks(rise, source) == ""
@@ -177,7 +177,7 @@ def test_who_asks_for_the_plan_ends_its_rest(rise: Box, source: Source | None) -
     assert rise.loop.status.held_by == ""
 
 
-def test_why_the_plan_is_not_flown_is_told() -> None:
+def test_the_reason_why_the_plan_is_not_flown_is_logged() -> None:
     def told(follow: str) -> str:
         return asks(Box(FEBRUARY_S, follow=follow))
 

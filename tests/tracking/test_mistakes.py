@@ -41,7 +41,7 @@ def planner() -> Iterator[ProcessPlanner]:
     planner.close()
 
 
-def test_a_plan_that_fails_in_its_process_is_told_and_the_next_one_is_made(planner: ProcessPlanner) -> None:
+def test_a_plan_that_fails_in_its_process_is_logged_and_the_next_one_is_made(planner: ProcessPlanner) -> None:
     antenna, now = build_antenna(Config()), Now(FEBRUARY_S, UP_S)
     with pytest.raises(RuntimeError, match="the plan could not be made"):
         planner.plan_program(Program(AT_ONE_MOMENT, UP_S), antenna, now)

@@ -56,7 +56,7 @@ def test_what_is_in_no_file_is_refused_after_one_look(folder: Path) -> None:
         ("JO62qm", "the box does not know where it stands"),
     ],
 )
-def test_without_a_place_a_name_that_means_nothing_is_told_first(words: str, said: str) -> None:
+def test_without_a_place_of_the_station_an_unknown_name_is_the_first_error(words: str, said: str) -> None:
     with pytest.raises(Unknown, match=re.escape(said)):
         KnownSky(None, Catalogue(())).find(words)
 

@@ -157,7 +157,7 @@ def test_a_request_after_a_refused_one_counts(box: Box) -> None:
     assert (box.tracker.state, box.loop.status.flown) == ("off", None)
 
 
-def test_a_table_is_told_as_one(box: Box) -> None:
+def test_the_status_says_that_a_table_is_flown(box: Box) -> None:
     box.tracker.program(table())
     box.wait(2.0)
     assert box.loop.status.flown is not None

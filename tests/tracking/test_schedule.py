@@ -103,7 +103,7 @@ def test_it_waits_where_the_target_will_be(planned: tuple[Mount, tuple[PlannedPa
         assert mount.inside_deg(azimuth_deg, elevation_deg) == 0.0
 
 
-def test_every_pass_is_told_once_in_order(planned: tuple[Mount, tuple[PlannedPass, ...]]) -> None:
+def test_every_pass_is_listed_once_in_order(planned: tuple[Mount, tuple[PlannedPass, ...]]) -> None:
     mount, plan = planned
     told = [(each.name, each.found.aos_s) for each in plan]
     assert len(set(told)) == len(told)
@@ -146,7 +146,7 @@ def test_nothing_is_lost_in_unwinding_where_the_rotor_reaches_everything(mount: 
     assert flight.over_the_top is (mount is OVER)
 
 
-def test_without_the_overlap_the_seconds_lost_are_told() -> None:
+def test_without_the_overlap_an_unwind_costs_its_seconds() -> None:
     """A turn takes 60 s; and before it the antenna waits at the end of its range."""
     through_north = Arc("north", EPOCH_S + 600, 700, 300.0, 110.0, 40.0)
     _, flight = only(schedule(follow(through_north), antenna(SINGLE), EPOCH_S, EPOCH_S + HOUR_S))
@@ -261,7 +261,7 @@ def test_no_flight_leads_past_a_mast_that_no_elevation_clears() -> None:
 
 
 @pytest.mark.parametrize("mount", MOUNTS.values(), ids=MOUNTS)
-def test_flights_follow_one_another_whatever_the_satellites(mount: Mount) -> None:
+def test_with_any_satellites_flights_follow_one_another(mount: Mount) -> None:
     plan = schedule(follow(*satellites(12)), antenna(mount), EPOCH_S, EPOCH_S + 6 * HOUR_S)
     for (_, before), (_, after) in pairwise(flights(plan)):
         assert before.end_s + 15.0 <= after.begin_s

@@ -153,7 +153,7 @@ def test_a_stop_at_the_very_end_of_a_pass_is_no_end_of_a_pass(rise: Box) -> None
         (PERSON, [LetGo()], "took the torque from the motors"),
     ],
 )
-def test_the_end_names_who_did_what(rise: Box, source: Source, orders: list[Order], said: str) -> None:
+def test_the_end_names_the_sender_and_its_order(rise: Box, source: Source, orders: list[Order], said: str) -> None:
     assert rise.tracker.track("iss") == ""
     rise.wait(5.0)
     for order in orders:
@@ -238,7 +238,7 @@ def test_a_direction_is_an_order_like_any(rise: Box) -> None:
     assert rise.tracker.state == "off"
 
 
-def test_what_cannot_be_tracked_is_told_and_nothing_moves(rise: Box) -> None:
+def test_a_target_that_cannot_be_tracked_is_refused_with_the_reason_and_nothing_moves(rise: Box) -> None:
     assert rise.tracker.track("xyzzy").startswith('"xyzzy" is not among the ')
     rise.clock_trusted = False
     assert rise.tracker.track("iss") == CLOCK_UNSURE
@@ -248,7 +248,7 @@ def test_what_cannot_be_tracked_is_told_and_nothing_moves(rise: Box) -> None:
     assert rise.tracker.track("iss") == ""
 
 
-def test_a_target_that_never_rises_is_told(rise: Box) -> None:
+def test_a_target_that_never_rises_is_refused_with_the_reason(rise: Box) -> None:
     south = Box(rise.utc_s, Site(-85.0, 0.0))
     assert south.tracker.track("cas a") == ""
     south.wait(2.0)

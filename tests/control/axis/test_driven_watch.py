@@ -66,7 +66,7 @@ def test_within_five_degrees_of_the_limit_it_is_its_stop(way: Direction, inside_
     assert driven(rotor, way) == name
 
 
-def test_what_was_measured_and_the_limit_are_told() -> None:
+def test_the_fault_names_the_measured_value_and_the_limit() -> None:
     rotor = WatchedMotor(noise_deg=0.0)
     rotor.look(2.0)
     rotor.motor.stalled = True
@@ -77,7 +77,7 @@ def test_what_was_measured_and_the_limit_are_told() -> None:
     assert "0.25°/s" in fault.limit
 
 
-def test_the_wrong_way_is_told_with_its_speed() -> None:
+def test_the_fault_of_the_wrong_way_names_its_speed() -> None:
     rotor = known(noise_deg=0.02)
     rotor.motor.reversed = True
     rotor.relays(MINUS)
@@ -88,7 +88,7 @@ def test_the_wrong_way_is_told_with_its_speed() -> None:
 
 
 @BOTH_WAYS
-def test_the_wrong_way_is_told_within_a_second_so_that_it_does_not_go_far(way: Direction) -> None:
+def test_the_wrong_way_is_a_fault_within_a_second_so_that_it_does_not_go_far(way: Direction) -> None:
     rotor = known(noise_deg=0.1)
     rotor.motor.reversed = True
     rotor.relays(way)
@@ -99,7 +99,7 @@ def test_the_wrong_way_is_told_within_a_second_so_that_it_does_not_go_far(way: D
 
 
 @BOTH_WAYS
-def test_a_slow_axis_that_stands_for_certain_is_told_before_its_noise_is_averaged_out(way: Direction) -> None:
+def test_a_slow_axis_that_stands_for_certain_is_a_fault_before_its_noise_is_averaged_out(way: Direction) -> None:
     """At 1°/s and 0.3° of noise the speed is known to a quarter of its limit only after 2.6 s."""
     rotor = WatchedMotor(speed_dps=1.0, believed_dps=1.0, noise_deg=0.3)
     rotor.look(2.0)

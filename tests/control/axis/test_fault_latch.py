@@ -167,12 +167,12 @@ def test_a_person_ends_what_an_earlier_run_left() -> None:
     assert (latch.fault, latch.tries(5000.0)) == (None, 0)
 
 
-def test_without_tries_an_earlier_fault_is_none() -> None:
+def test_an_earlier_fault_without_tries_is_forgotten() -> None:
     latch = FaultLatch(before=STANDS)
     assert (latch.fault, latch.kind, latch.tries(0.0)) == (None, None, 0)
 
 
-def test_the_next_run_is_told_the_kind_of_the_latest_fault_that_stopped_the_motor() -> None:
+def test_the_next_run_knows_the_kind_of_the_latest_fault_that_stopped_the_motor() -> None:
     latch = FaultLatch()
     for fault, tries, kind in (
         (JUMPS, 0, None),

@@ -84,7 +84,7 @@ def test_neither_does_what_a_healthy_one_does_after_its_stop() -> None:
         assert box.turns(0.02 * way, 120.0) is None
 
 
-def test_nothing_is_told_of_an_axis_whose_pot_has_gone_out_meanwhile() -> None:
+def test_an_axis_whose_pot_has_failed_meanwhile_has_no_such_fault() -> None:
     box = Box()
     assert box.turns(6.0, 1.9) is None
     assert box.watch.see(box.now_s + 0.2, box.readings, None, holds=True) is None

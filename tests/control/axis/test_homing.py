@@ -96,7 +96,7 @@ def cams(draw: st.DrawFn) -> Cam:
     bounce_s=st.sampled_from([0.0, 0.005, 0.015]),
     seed=st.integers(0, 10_000),
 )
-def test_wherever_a_coast_ends_it_is_homed(  # noqa: PLR0917 - hypothesis calls it by keyword
+def test_a_coast_may_end_anywhere_and_it_is_homed(  # noqa: PLR0917 - hypothesis calls it by keyword
     cam: Cam, start_deg: float, lag_s: float, pace: float, bounce_s: float, seed: int
 ) -> None:
     """The speed and the coast decide where it turns back: also on an edge of the contact, and where the stop is one."""
@@ -159,7 +159,7 @@ def test_given_up_it_drives_nothing() -> None:
     assert homing.failure == why, "the reason stays the first one"
 
 
-def test_a_stop_by_somebody_else_is_waited_out_not_taken_for_quiet() -> None:
+def test_a_stop_by_another_sender_is_waited_out_not_taken_for_quiet() -> None:
     homing = ordered()
     for at_s, driven in ((0.0, Direction.OFF), (20.0, Direction.OFF), (20.1, Direction.MINUS), (22.5, Direction.MINUS)):
         assert homing.step(at_s, driven, Condition()) is Direction.MINUS

@@ -68,7 +68,7 @@ def test_a_release_forgets_the_stops_and_where_it_stood_once(stops: MetStops) ->
     assert stops.limits == LIMITS, "it is the first time again"
 
 
-def test_each_stop_is_told_with_its_place_its_way_and_its_cure(stops: MetStops) -> None:
+def test_each_stop_is_noticed_with_its_place_its_direction_and_its_cure(stops: MetStops) -> None:
     stops.stood_still(END, PLUS, 448.2)
     stops.stood_still(END, MINUS, 2.0)
     for notice, place, way in zip(stops.notices, (" 448°", " 2°"), (" clockwise", "counter-clockwise"), strict=True):
@@ -80,7 +80,9 @@ STOOD = st.tuples(st.sampled_from([STANDS, END]), st.sampled_from([PLUS, MINUS])
 
 
 @given(st.lists(STOOD, max_size=8))
-def test_wherever_it_stood_its_limits_shrink_and_stay_a_range(met: list[tuple[FaultKind, Direction, float]]) -> None:
+def test_from_any_place_where_it_stood_its_limits_shrink_and_stay_a_range(
+    met: list[tuple[FaultKind, Direction, float]],
+) -> None:
     stops = MetStops(Axis.AZIMUTH, LIMITS)
     for kind, way, angle_deg in met:
         stops.stood_still(kind, way, angle_deg)

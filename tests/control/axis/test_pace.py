@@ -91,7 +91,7 @@ def turning(speed_dps: float, accel_dps2: float | None, at_deg: float = 90.0) ->
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_wherever_a_moteus_is_told_to_stop_it_rests_within_its_span(seed: int) -> None:
+def test_a_moteus_that_is_stopped_anywhere_rests_within_its_span(seed: int) -> None:
     """It gathers speed and brakes at 20°/s² as it likes; it obeys after 0.1 s, and then brakes."""
     draw, axis = random.Random(seed), pace(AngleSource.MEASURED, ACCEL_DPS2)
     angle_deg, speed_dps, wanted_dps = 90.0, 0.0, 0.0

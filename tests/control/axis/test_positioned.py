@@ -80,12 +80,12 @@ def test_without_a_goal_it_holds(motor: Motor) -> None:
     assert motor.step() is None
 
 
-def test_a_standing_target_is_told_as_it_is_and_for_a_lease(motor: Motor) -> None:
+def test_a_standing_target_is_sent_as_it_is_and_for_a_lease(motor: Motor) -> None:
     motor.axis.aim(AimGoal(235.0, 1.0))
     assert motor.step() == Steer(235.0, 0.0, LEASE_S)
 
 
-def test_a_moving_target_is_told_with_its_rate(motor: Motor) -> None:
+def test_a_moving_target_is_sent_with_its_rate(motor: Motor) -> None:
     motor.axis.aim(AimGoal(100.0, 1.0, path(3.0)))
     motor.step(1.0)
     command = motor.step()
@@ -107,7 +107,7 @@ def test_before_anything_is_known_of_its_place_it_holds() -> None:
     assert motor.axis.decide(0.0).command is HOLD
 
 
-def test_an_axis_that_nobody_has_set_up_is_not_aimed() -> None:
+def test_an_axis_that_was_never_set_up_is_not_aimed() -> None:
     motor = Motor(missing=(Missing.HOMING,))
     motor.axis.aim(AimGoal(235.0, 1.0))
     assert motor.step() is None

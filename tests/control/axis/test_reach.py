@@ -81,7 +81,7 @@ def test_a_motor_is_bounded_by_what_the_file_says_and_by_what_it_has_shown() -> 
 
 @pytest.mark.parametrize("share", [0.3, 1.0, FASTER_THAN_FILE])
 @pytest.mark.parametrize("seed", range(6))
-def test_wherever_a_run_begins_and_ends_the_real_motor_rests_within_its_bounds(seed: int, share: float) -> None:
+def test_from_any_begin_to_any_end_of_a_run_the_real_motor_rests_within_its_bounds(seed: int, share: float) -> None:
     """The motor is up to half as fast again as the file says, and reversed and tapped at random."""
     draw = random.Random(seed)
     reached = Reached(6.0 * share)

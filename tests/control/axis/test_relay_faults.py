@@ -71,7 +71,7 @@ def test_a_relay_that_is_not_suspected_accuses_nothing(trust: Trust) -> None:
     assert accusation(AZ, PLUS, trust, "", master=True) is None
 
 
-def test_who_drives_it_to_its_stops_on_purpose_is_told_which_relay_is_in_doubt() -> None:
+def test_a_person_who_drives_it_to_its_stops_reads_which_relay_is_in_doubt() -> None:
     assert doubts(AZ, (OPEN, WELDED)) == ()
     (notice,) = doubts(AZ, (DOUBTED, OPEN))
     assert notice.text == (

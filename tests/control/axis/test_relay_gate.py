@@ -55,7 +55,7 @@ def test_a_run_that_waits_leaves_the_relays_open_and_feeds_a_master(master: bool
     assert not a_gate.waiting
 
 
-def test_a_long_wait_is_told_after_four_seconds_and_ends_with_the_wish() -> None:
+def test_a_long_wait_is_noticed_after_four_seconds_and_ends_with_the_wish() -> None:
     a_gate = gate(look=True)
     a_gate.passed(Run(PLUS, 10.25), 10.0)
     a_gate.passed(Run(PLUS, 12.25), 12.0)

@@ -41,14 +41,14 @@ def first_fault(watch: RunWatch, from_s: float, seconds: float) -> tuple[float, 
     return None
 
 
-def test_a_run_from_end_to_end_is_none(watch: RunWatch) -> None:
+def test_a_run_from_end_to_end_is_no_fault(watch: RunWatch) -> None:
     switch = Switch(watch.note_relays)
     switch.to(100.0, PLUS)
     assert first_fault(watch, 100.0, LONGEST_S - 0.1) is None
 
 
 @pytest.mark.parametrize("way", [PLUS, MINUS], ids=["clockwise", "counter-clockwise"])
-def test_one_that_does_not_end_is_told_with_its_way_and_its_limit(watch: RunWatch, way: Direction) -> None:
+def test_a_run_that_does_not_end_is_a_fault_with_its_direction_and_its_limit(watch: RunWatch, way: Direction) -> None:
     switch = Switch(watch.note_relays)
     switch.to(100.0, way)
     told = first_fault(watch, 100.0, 100.0)
@@ -73,7 +73,7 @@ def test_a_stop_or_a_reversal_begins_anew(watch: RunWatch) -> None:
     assert first_fault(watch, 161.0, 80.0) is None
 
 
-def test_standing_for_a_day_is_none(watch: RunWatch) -> None:
+def test_standing_for_a_day_is_no_fault(watch: RunWatch) -> None:
     assert watch.see(86_400.0, 12.0) is None
     switch = Switch(watch.note_relays)
     switch.to(86_400.0, OFF)
@@ -131,20 +131,20 @@ def test_presses_without_a_change_of_the_contact_count_together(watch: RunWatch,
     assert presses.press(MINUS, press_s) is None, "the next try has its own time"
 
 
-def test_presses_that_change_the_contact_now_and_then_are_none(watch: RunWatch) -> None:
+def test_presses_that_change_the_contact_now_and_then_are_no_fault(watch: RunWatch) -> None:
     presses = Presses(watch)
     for press in range(60):
         assert presses.press(PLUS, 1.0) is None
         presses.changes += press % 2
 
 
-def test_presses_to_and_fro_are_none(watch: RunWatch) -> None:
+def test_presses_to_and_fro_are_no_fault(watch: RunWatch) -> None:
     presses = Presses(watch)
     for press in range(60):
         assert presses.press((PLUS, MINUS)[press % 2], 1.0) is None
 
 
-def test_taps_that_hardly_start_the_motor_are_none(watch: RunWatch) -> None:
+def test_taps_that_hardly_start_the_motor_are_no_fault(watch: RunWatch) -> None:
     presses = Presses(watch)
     for _ in range(100):
         assert presses.press(PLUS, 0.15) is None

@@ -141,7 +141,7 @@ def test_a_few_taps_too_short_for_a_motor_show_nothing() -> None:
     assert bench.faults == []
 
 
-def test_a_motor_that_is_started_again_and_again_near_its_target_is_told() -> None:
+def test_a_standing_motor_that_is_started_again_and_again_near_its_target_is_a_fault() -> None:
     bench = Bench(pace=0.0)
     for _ in range(STOOD_STARTS):
         bench.press(PLUS, LEAST_RUN_S - STEP_S, 0.7)
@@ -150,7 +150,7 @@ def test_a_motor_that_is_started_again_and_again_near_its_target_is_told() -> No
 
 @pytest.mark.parametrize("noise_deg", [0.1, 0.3, 0.4])
 @pytest.mark.parametrize("run_s", [STEP_S, 0.1])
-def test_an_antenna_that_turns_to_and_fro_about_its_target_is_not(run_s: float, noise_deg: float) -> None:
+def test_an_antenna_that_turns_to_and_fro_about_its_target_is_no_fault(run_s: float, noise_deg: float) -> None:
     bench = Bench(noise_deg=noise_deg)
     for count in range(60):
         bench.press((PLUS, MINUS)[count % 2], run_s, 1.5)
@@ -186,7 +186,7 @@ def test_a_motor_that_holds_its_antenna_against_a_steady_wind_is_not_accused(see
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_a_motor_that_stands_is_told_among_noise_however_long_its_runs_are(seed: int) -> None:
+def test_a_motor_that_stands_is_a_fault_among_noise_in_runs_of_any_length(seed: int) -> None:
     chance = random.Random(seed)
     noise_deg, way = chance.choice((0.0, 0.1, 0.2, 0.4)), chance.choice((PLUS, MINUS))
     run_s = chance.uniform(0.1, 0.8)

@@ -70,7 +70,7 @@ def test_a_real_motion_is_never_left_out(speed_dps: float, seed: int, each: int,
     assert all(places for places, angle_deg in zip(believed(angles_deg), angles_deg, strict=True) if angle_deg)
 
 
-def test_when_the_readings_mean_other_places_the_next_one_is_believed_wherever_it_is() -> None:
+def test_when_the_readings_mean_other_places_the_next_one_is_believed_at_any_angle() -> None:
     sparks = Sparks(FASTEST_DPS)
     assert sparks.believe(0.0, 10.0, 0.1) == ((0.0, 10.0),)
     assert sparks.believe(0.05, 300.0, 0.1) == ()

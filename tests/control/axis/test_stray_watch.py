@@ -48,7 +48,7 @@ class Sent:
 
 @pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
 @pytest.mark.parametrize("noise_deg", [0.0, 0.1, 0.4])
-def test_an_axis_that_stays_where_it_is_is_told_after_1_7_s(way: int, noise_deg: float) -> None:
+def test_an_axis_that_stays_where_it_is_is_a_fault_after_1_7_s(way: int, noise_deg: float) -> None:
     told = Sent(noise_deg=noise_deg).go(5.0, 90.0 + way * 40.0)
     assert told is not None
     after_s, fault = told
@@ -60,14 +60,14 @@ def test_an_axis_that_stays_where_it_is_is_told_after_1_7_s(way: int, noise_deg:
 
 @pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
 @pytest.mark.parametrize("share", [0.3, 0.6, 1.0])
-def test_an_axis_that_comes_nearer_is_none(way: int, share: float) -> None:
+def test_an_axis_that_comes_nearer_is_no_fault(way: int, share: float) -> None:
     sent = Sent(at_deg=90.0 - way * 60.0)
     dps = share * 30.0 * way
     assert sent.go(100.0 / abs(dps), 90.0 + way * 60.0, dps) is None
 
 
 @pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
-def test_an_axis_that_goes_away_is_told(way: int) -> None:
+def test_an_axis_that_goes_away_is_a_fault(way: int) -> None:
     told = Sent().go(5.0, 90.0 + way * 40.0, -10.0 * way)
     assert told is not None
     assert told[0] <= 1.8
@@ -86,7 +86,7 @@ def test_a_motor_that_has_to_turn_back_first_has_the_time_for_it() -> None:
         assert told[0] == pytest.approx(told_s, abs=0.051)
 
 
-def test_one_that_turned_back_and_comes_is_none() -> None:
+def test_an_axis_that_turned_back_and_comes_is_no_fault() -> None:
     sent = Sent(accel_dps2=20.0)
     assert sent.go(1.5, 30.0, 15.0) is None
     assert sent.go(3.0, 30.0, -15.0) is None
@@ -127,7 +127,7 @@ def test_acknowledged_it_has_its_whole_time_again() -> None:
     assert told[0] == pytest.approx(1.8, abs=0.11)
 
 
-def test_while_the_rotor_says_that_it_settles_nothing_is_told() -> None:
+def test_while_the_rotor_says_that_it_settles_there_is_no_fault() -> None:
     sent = Sent()
     assert sent.go(20.0, 130.0, settling=True) is None
     told = sent.go(5.0, 130.0)
@@ -158,13 +158,13 @@ def test_a_move_elsewhere_in_the_middle_of_one_is_a_try_of_its_own() -> None:
     assert sent.watch.tries == 1
 
 
-def test_a_motor_with_an_encoder_of_its_own_is_told_nearer_to_its_place() -> None:
+def test_with_an_encoder_of_its_own_a_motor_strays_from_a_degree_and_a_half_on() -> None:
     assert Sent(stray_deg=1.5).go(10.0, 91.4) is None
     assert Sent(stray_deg=1.5).go(10.0, 91.6) is not None
 
 
 @pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
-def test_a_fast_target_that_leaves_a_stuck_axis_is_told_soon_after_it_is_five_degrees_away(way: int) -> None:
+def test_a_fast_target_that_leaves_a_stuck_axis_is_a_fault_soon_after_it_is_five_degrees_away(way: int) -> None:
     """What was seen while it was near counts: a target at 15°/s is 5° away after 0.33 s."""
     told = Sent().go(5.0, 90.0, rate_dps=15.0 * way)
     assert told is not None
@@ -172,7 +172,7 @@ def test_a_fast_target_that_leaves_a_stuck_axis_is_told_soon_after_it_is_five_de
     assert Sent().go(4.0, 90.0, dps=15.0 * way, rate_dps=15.0 * way) is None
 
 
-def test_without_a_reading_nothing_is_told() -> None:
+def test_without_a_reading_there_is_no_fault() -> None:
     watch = StrayWatch(Axis.AZIMUTH, 30.0, None, near_deg=0.0, stray_deg=STRAY_DEG)
     for step in range(200):
         assert watch.see(step * STEP_S, Steer(100.0, 0.0, 1e9), None, settling=False) is None

@@ -13,7 +13,7 @@ NOISES_DEG = pytest.mark.parametrize("noise_deg", [0.0, 0.1, 0.4])
 
 
 @NOISES_DEG
-def test_noise_is_measured_whatever_the_axis_does(noise_deg: float) -> None:
+def test_noise_is_measured_at_rest_and_in_any_motion(noise_deg: float) -> None:
     chance, trend = random.Random(3), Trend()
     for count in range(400):
         trend.see(count * STEP_S, 6.0 * count * STEP_S + chance.gauss(0.0, noise_deg), 6.0)

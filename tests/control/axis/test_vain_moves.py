@@ -55,7 +55,7 @@ def test_coming_nearer_than_the_worst_of_this_move_forgets_those_in_vain(
     assert vain.count == count
 
 
-def test_a_move_that_came_nearer_is_not_in_vain_whatever_comes_then() -> None:
+def test_a_move_that_came_nearer_is_not_in_vain_also_if_the_axis_goes_away_again() -> None:
     vain = VainMoves()
     moved(vain, 0.0, 9.0, (0.0, 0.6, 0.6, 0.0))
     assert (vain.count, vain.any) == (0, False)

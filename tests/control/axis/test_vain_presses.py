@@ -56,7 +56,7 @@ def test_three_presses_that_move_nothing_are_enough_and_more_of_short_ones(
 
 
 @pytest.mark.parametrize(("speed_dps", "noise_deg"), [(0.5, 0.1), (2.7, 0.5), (6.0, 1.0)])
-def test_a_motor_that_turns_is_never_pressed_in_vain_however_slow(speed_dps: float, noise_deg: float) -> None:
+def test_also_a_slow_motor_that_turns_is_never_pressed_in_vain(speed_dps: float, noise_deg: float) -> None:
     pot = Pot(speed_dps, noise_deg)
     for press_s in (2.0, 0.3, 0.3, 1.0, 0.1, 0.1, 0.1) * 20:
         pot.press(press_s)
@@ -74,7 +74,7 @@ def test_from_one_press_to_the_next_without_a_pause_they_count_too() -> None:
     assert pot.presses.enough
 
 
-def test_presses_that_run_into_each_other_are_told_within_five_seconds() -> None:
+def test_presses_without_a_pause_are_noticed_within_five_seconds() -> None:
     """Each order comes while the relay is still on: the relay closes once."""
     pot = Pot(0.0, 0.1)
     pot.switch.to(pot.now_s, PLUS)

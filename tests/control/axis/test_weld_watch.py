@@ -91,7 +91,7 @@ def test_gusts_between_which_it_hardly_rests_are_noticed_and_no_fault() -> None:
 
 @BOTH_WAYS
 @pytest.mark.parametrize("noise_deg", [0.02, 0.1, 0.4])
-def test_it_is_told_within_two_seconds(way: Direction, noise_deg: float) -> None:
+def test_an_axis_that_turns_with_no_relay_on_is_a_fault_within_two_seconds(way: Direction, noise_deg: float) -> None:
     rotor = known(noise_deg=noise_deg)
     began_s = rotor.now_s
     assert rotor.push(float(way), 0.8) is None
@@ -135,7 +135,7 @@ def test_an_axis_that_stood_and_then_turns_is_turned_by_something_else(way: Dire
 
 @BOTH_WAYS
 @pytest.mark.parametrize("share", [0.5, 1.5])
-def test_a_relay_that_turns_it_meets_no_opposite_one_whatever_the_motor_does(way: Direction, share: float) -> None:
+def test_with_any_motor_a_relay_that_turns_the_axis_meets_no_opposite_one(way: Direction, share: float) -> None:
     rotor = known()
     rotor.motor.pace = share
     rotor.motor.welded = int(way)
@@ -147,7 +147,7 @@ def test_a_relay_that_turns_it_meets_no_opposite_one_whatever_the_motor_does(way
     assert rotor.watch.trusts[0 if way > 0 else 1] is Trust.WELDED
 
 
-def test_at_a_stop_that_it_ran_into_the_place_is_told() -> None:
+def test_at_a_stop_that_it_ran_into_the_fault_names_the_place() -> None:
     rotor = known(at_deg=406.5)
     rotor.motor.welded = 1
     rotor.run(PLUS, 4.0)
@@ -216,7 +216,7 @@ def test_a_notice_stays_for_three_seconds_after_its_cause() -> None:
 
 @BOTH_WAYS
 @pytest.mark.parametrize("speed_dps", [6.0, 1.5])
-def test_an_axis_that_turns_when_the_program_starts_is_told_though_its_speed_is_not_known(
+def test_an_axis_that_turns_when_the_program_starts_is_a_fault_though_its_speed_is_not_known(
     way: Direction, speed_dps: float
 ) -> None:
     """No run has shown how fast it is: it may be a fifth of what the file says."""

@@ -152,7 +152,7 @@ def connected(mount: Mount, blocked: list[tuple[Range, Range]], a: Place, b: Pla
 
 
 @pytest.mark.search
-def test_no_way_enters_a_sector_whatever_the_motors_paces() -> None:
+def test_no_way_enters_a_sector_at_any_speeds_of_the_motors() -> None:
     ways = reached = 0
     for seed in range(WORLDS):
         finder, sectors, draw, mount = drawn(seed)

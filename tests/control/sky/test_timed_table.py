@@ -62,7 +62,7 @@ def test_what_the_rotor_reaches_is_not_hindered() -> None:
         ),
     ],
 )
-def test_the_line_is_told_from_which_on_the_rotor_cannot(mount: Mount, told: str) -> None:
+def test_the_first_line_that_the_rotor_cannot_follow_is_named(mount: Mount, told: str) -> None:
     words = said(mount, (0, 100, 30), (10, 120, 40), (20, 178, 55), (30, 200, 70))
     assert words.startswith("line 4: azimuth 1")
     assert words.endswith(told)

@@ -63,7 +63,7 @@ def test_over_the_top_no_pass_through_north_is_unwound(name: str, mirrored: bool
 
 
 @pytest.mark.parametrize("name", NORTH[:2])
-def test_where_it_must_be_unwound_that_takes_one_turn_and_is_told(name: str) -> None:
+def test_an_unwind_takes_one_turn_and_its_seconds_count_as_lost(name: str) -> None:
     """A turn takes 60 s at 6°/s; before and after it the antenna waits at an end of its range."""
     route = routed(SINGLE, path_of(name))
     assert len(route.legs) == 2
@@ -86,7 +86,7 @@ WANDERING = st.lists(
 
 
 @given(mount=MOUNTS, directions=WANDERING, speeds=SPEEDS, from_deg=st.tuples(st.floats(0, 360), st.floats(0, 90)))
-def test_a_route_comes_to_an_end_wherever_the_target_goes(
+def test_a_route_comes_to_an_end_for_any_path_of_the_target(
     mount: Mount, directions: list[tuple[float, float]], speeds: Speeds, from_deg: tuple[float, float]
 ) -> None:
     """Also where two ways wait at the same limit, and a change between them takes no time."""

@@ -157,7 +157,7 @@ def test_a_chip_that_is_not_there_is_a_sentence() -> None:
 # --- looking without taking
 
 
-def test_the_holders_of_lines_are_told_by_name_and_free_ones_left_out() -> None:
+def test_the_holders_of_lines_are_named_and_free_lines_left_out() -> None:
     gpio = simulated(PI_4)
     lines = take(gpio)
     assert holders(gpio, "/dev/gpiochip0", [22, 24]) == {22: "rotator-relays"}
@@ -174,7 +174,7 @@ def test_the_holders_of_lines_are_told_by_name_and_free_ones_left_out() -> None:
     ],
     ids=["no-chip", "no-line", "not-yours"],
 )
-def test_holders_that_cannot_be_told(gpio: object, path: str, offsets: list[int], words: str) -> None:
+def test_holders_that_cannot_be_read_are_an_error(gpio: object, path: str, offsets: list[int], words: str) -> None:
     with pytest.raises(HardwareError, match=words):
         holders(gpio, path, offsets)
 

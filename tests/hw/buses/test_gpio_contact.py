@@ -69,7 +69,7 @@ def test_bounce_is_no_change(gpio: SimGpio, clock: SimClock) -> None:
     assert told(contact) == [(0.024, True, 0)]
 
 
-def test_a_quarter_of_a_minute_of_chatter_waits_for_who_reads_late(gpio: SimGpio, clock: SimClock) -> None:
+def test_a_quarter_of_a_minute_of_chatter_waits_for_a_late_reader(gpio: SimGpio, clock: SimClock) -> None:
     contact = GpioContact(gpio, PATH, PIN, consumer="test")
     switch(gpio, clock, *[False, True] * 350, every_s=0.021)
     clock.sleep(0.1)

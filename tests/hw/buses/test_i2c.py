@@ -112,7 +112,7 @@ def test_each_error_number_is_a_sentence(number: int, words: str) -> None:
         SmbusI2C(BrokenAdapter(number), "bus 1").write(0x27, b"\x00")
 
 
-def test_asking_who_answers_writes_nothing(bus: SmbusI2C, chip: Memory) -> None:
+def test_asking_whether_a_chip_answers_writes_nothing(bus: SmbusI2C, chip: Memory) -> None:
     assert bus.answers(ADDRESS)
     assert not bus.answers(0x49)
     assert chip.log == [1]

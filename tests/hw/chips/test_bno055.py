@@ -135,7 +135,7 @@ def test_a_reading_takes_less_than_10_ms(bench: Bench) -> None:
 # --- calibration and offsets
 
 
-def test_the_calibration_is_told_part_by_part(bench: Bench) -> None:
+def test_the_calibration_is_read_part_by_part(bench: Bench) -> None:
     driver = bench.driver()
     driver.attitude()
     assert driver.calibration() == (0, 0, 0, 0)
@@ -203,7 +203,7 @@ def test_garbled_offsets_are_not_believed(bench: Bench) -> None:
         assert driver.offsets() == LEARNT
 
 
-def test_where_nothing_arrives_twice_the_same_the_cure_is_told(bench: Bench) -> None:
+def test_where_no_two_answers_are_the_same_the_error_names_the_cure(bench: Bench) -> None:
     driver = bench.learnt()
     bench.chip.bit7_share = 0.5
     with pytest.raises(HardwareError, match=r"change from reading to reading; .* dtoverlay=i2c-gpio"):
@@ -224,7 +224,7 @@ class GarbledAngles:
         return bytes(octet | 0x80 for octet in answer) if count == 6 else answer
 
 
-def test_angles_that_cannot_be_are_not_taken_however_steady(bench: Bench) -> None:
+def test_impossible_angles_are_not_taken_also_when_they_are_steady(bench: Bench) -> None:
     bench.wire.detach(0x28)
     bench.wire.attach(0x28, GarbledAngles(bench.chip))
     with pytest.raises(HardwareError, match="change from reading to reading"):
@@ -267,7 +267,7 @@ def test_another_chip_at_the_address(bench: Bench) -> None:
         bench.driver().attitude()
 
 
-def test_a_system_error_is_told(bench: Bench) -> None:
+def test_a_system_error_is_reported(bench: Bench) -> None:
     bench.chip.system_error = 9
     with pytest.raises(HardwareError, match="it reports system error 9; switch its power off and on"):
         bench.driver().attitude()

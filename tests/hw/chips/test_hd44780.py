@@ -80,7 +80,7 @@ def test_every_board_of_the_table_is_tested() -> None:
     assert set(BOARDS) == set(BACKPACKS)
 
 
-def test_it_reads_what_it_was_told(bench: Bench) -> None:
+def test_it_shows_the_rows_that_were_sent(bench: Bench) -> None:
     bench.display.reset()
     bench.display.show(ROWS)
     assert bench.glass.text() == ROWS

@@ -160,7 +160,7 @@ def test_what_is_not_near_1_g_is_not(bench: Bench, jolt_g: float, felt: str) -> 
         bench.driver().read()
 
 
-def test_a_short_jolt_is_passed_over_a_long_one_is_told(bench: Bench) -> None:
+def test_a_short_jolt_is_passed_over_and_a_long_one_is_an_error(bench: Bench) -> None:
     sensor = bench.driver()
     sensor.read()
     jolt(bench, 0.8)

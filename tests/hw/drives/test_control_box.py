@@ -52,7 +52,7 @@ def test_the_wiper_leads_by_the_dead_band_less_the_coast_in_the_direction_of_the
 
 
 @pytest.mark.parametrize(("back_deg", "wiper_deg"), [(0.75, 40.75), (1.25, 37.25)])
-def test_less_than_a_degree_back_reverses_no_motor_however_fine_the_steps(back_deg: float, wiper_deg: float) -> None:
+def test_less_than_a_degree_back_reverses_no_motor_also_with_fine_steps(back_deg: float, wiper_deg: float) -> None:
     bench = Bench()
     bench.order(40.0, 20.0)
     assert bench.order(40.0 - back_deg, 1.0) == wiper_deg

@@ -154,7 +154,7 @@ def test_only_changes_are_sent_and_all_of_it_once_a_second() -> None:
     assert bench.rotor.azimuth.chip.frames == pytest.approx(2 + 10, abs=1)
 
 
-def test_a_chip_that_forgot_is_told_again() -> None:
+def test_a_chip_that_forgot_its_step_gets_it_again() -> None:
     bench = Bench()
     bench.follow(AZ, 42.0, 2.0)
     bench.rotor.inject("azimuth-chip-dips")
@@ -188,7 +188,7 @@ def test_release_takes_the_supply_and_an_aim_gives_it_back() -> None:
     assert bench.antenna(AZ) == pytest.approx(at_deg, abs=BAND_DEG)
 
 
-def test_chips_that_forgot_meanwhile_are_told_before_the_supply_comes_back() -> None:
+def test_chips_that_forgot_their_steps_get_them_before_the_supply_comes_back() -> None:
     bench = Bench()
     bench.follow(AZ, 40.0, 1.0)
     bench.drive.release()
@@ -296,7 +296,7 @@ def test_without_a_relay_the_boxes_have_supply_and_need_not_wait_for_a_sensor() 
     assert bench.antenna(AZ) == pytest.approx(90.0, abs=BAND_DEG)
 
 
-def test_a_cut_without_a_relay_is_none() -> None:
+def test_a_cut_without_a_relay_returns_false() -> None:
     bench = Bench(relay=False)
     assert not bench.drive.cut()
     bench.follow(AZ, 100.0, 20.0)
@@ -315,7 +315,7 @@ def test_a_measured_box_whose_chip_forgot_turns_back_before_the_next_refresh() -
 
 
 @pytest.mark.parametrize("steps", [((0.0, 0.0), (360.0, 300.0)), ((0.0, -5.0), (360.0, 255.0))])
-def test_steps_that_are_none(steps: tuple[tuple[float, float], ...]) -> None:
+def test_impossible_steps_are_refused(steps: tuple[tuple[float, float], ...]) -> None:
     bench = Bench()
     chip = Mcp41010(bench.kernel(), "azimuth")
     with pytest.raises(HardwareError, match="0 to 256"):
@@ -341,7 +341,7 @@ class FailingEnable:
 
 
 @pytest.mark.parametrize("outcomes", list(itertools.product(("works", "fails", "switches"), repeat=3)), ids="-".join)
-def test_however_the_supply_s_line_fails_a_lease_ends_the_move_and_the_next_aim_works(
+def test_with_any_failure_of_the_supply_s_line_a_lease_ends_the_move_and_the_next_aim_works(
     outcomes: tuple[str, ...],
 ) -> None:
     bench = Bench(enable_outcomes=outcomes)

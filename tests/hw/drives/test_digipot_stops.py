@@ -42,7 +42,7 @@ def both(bench: Bench, azimuth_deg: float, elevation_deg: float, seconds: float)
     seconds=st.floats(0.1, 90),
     stop=st.sampled_from(["hold", "off", "expiry"]),
 )
-def test_a_stop_stops_wherever_the_rotor_really_is(
+def test_a_stop_stops_at_any_true_angle_of_the_rotor(
     true_deg: tuple[float, float], assumed_deg: float, target_deg: float, seconds: float, stop: str
 ) -> None:
     bench = bench_at(true_deg[0], assumed_deg, true_deg[1])

@@ -90,7 +90,7 @@ def test_a_command_lasts_for_half_a_second_at_most(asked_s: float, lasts_s: floa
     assert bench.drive.due_s() == pytest.approx(101.0), "the next refresh"
 
 
-def test_once_a_second_both_chips_get_their_step_again_whatever_the_time_of_the_call() -> None:
+def test_once_a_second_both_chips_get_their_step_again_at_any_moment_of_the_call() -> None:
     bench = Bench()
     bench.aim(AZ, 60.0)
     bench.drive.hold(AZ)
@@ -103,7 +103,7 @@ def test_once_a_second_both_chips_get_their_step_again_whatever_the_time_of_the_
         assert bench.said() == ["azimuth 40", "elevation 30"]
 
 
-def test_the_model_goes_on_whenever_it_is_read() -> None:
+def test_each_reading_of_the_model_brings_it_up_to_date() -> None:
     bench = Bench()
     bench.aim(AZ, 60.0)
     for angle_deg in (45.0, 50.0, 55.0, 60.0, 60.0):

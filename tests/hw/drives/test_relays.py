@@ -167,7 +167,7 @@ def test_a_cut_takes_the_supply_and_keeps_it_until_restored() -> None:
     assert bench.on() == {"elevation_up", "master"}
 
 
-def test_without_a_master_a_cut_says_that_it_is_none() -> None:
+def test_without_a_master_a_cut_returns_false() -> None:
     bench = Bench()
     bench.drive(EL, PLUS)
     assert not bench.bank.cut()

@@ -97,7 +97,7 @@ class MasterStuck(OneLineStuck):
         self.levels.update(levels)
 
 
-def test_a_master_that_cannot_be_opened_is_told_and_tried_again() -> None:
+def test_a_master_that_cannot_be_opened_is_an_error_and_is_tried_again() -> None:
     clock, lines = SimClock(), MasterStuck(master=True)
     bank = RelayBank(lines, clock, dead_time_s=DEAD_TIME_S, master=True)
     bank.drive(AZ, PLUS, 0.2)
@@ -117,7 +117,7 @@ class NothingSwitches(OneLineStuck):
         super().set(levels)
 
 
-def test_of_several_failures_the_first_is_told_and_the_next_try_is_due_at_once() -> None:
+def test_of_several_failures_the_first_is_raised_and_the_next_try_is_due_at_once() -> None:
     clock, lines = SimClock(), NothingSwitches(master=True)
     bank = RelayBank(lines, clock, dead_time_s=DEAD_TIME_S, master=True)
     bank.drive(AZ, PLUS, 0.2)
@@ -157,7 +157,7 @@ class Waiting:
         self.back.set()
 
 
-def test_who_waits_for_the_next_end_comes_back_at_once_when_it_is_due() -> None:
+def test_a_thread_that_waits_for_the_next_end_comes_back_at_once_when_it_is_due() -> None:
     bench = Bench(guarded=False)
     bench.drive(AZ, PLUS, 0.2)
     bench.clock.sleep(0.2)
@@ -166,7 +166,7 @@ def test_who_waits_for_the_next_end_comes_back_at_once_when_it_is_due() -> None:
     bench.bank.wait_until_due(math.inf)
 
 
-def test_who_waits_has_no_more_patience_than_was_asked() -> None:
+def test_a_thread_that_waits_has_no_more_patience_than_was_asked() -> None:
     bench = Bench(guarded=False)
     bench.bank.wait_until_due(0.001)
     bench.drive(AZ, PLUS, 0.5)
@@ -174,7 +174,7 @@ def test_who_waits_has_no_more_patience_than_was_asked() -> None:
     assert bench.on() == {"azimuth_cw"}, "and nothing else happens"
 
 
-def test_a_command_wakes_who_waits() -> None:
+def test_a_command_wakes_the_thread_that_waits() -> None:
     bench = Bench(guarded=False)
     waiting = Waiting(bench.bank, 3600.0)
     assert not waiting.back.wait(0.05), "nothing is due: it sleeps"

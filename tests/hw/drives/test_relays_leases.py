@@ -56,20 +56,20 @@ def bench() -> Bench:
     return Bench()
 
 
-def test_the_first_lease_is_told_before_the_relay_closes(bench: Bench) -> None:
+def test_the_watch_hears_of_the_first_lease_before_the_relay_closes(bench: Bench) -> None:
     bench.drive(AZ, PLUS)
     assert bench.journal.heard == [("renew", False)]
     assert bench.gpio.level(22)
 
 
-def test_every_renewal_is_told(bench: Bench) -> None:
+def test_the_watch_hears_of_every_renewal(bench: Bench) -> None:
     for _ in range(3):
         bench.drive(AZ, PLUS)
         bench.clock.sleep(0.05)
     assert bench.journal.words() == ["renew"] * 3
 
 
-def test_the_end_is_told_when_the_relay_is_open(bench: Bench) -> None:
+def test_the_watch_hears_of_the_end_when_the_relay_is_open(bench: Bench) -> None:
     bench.drive(AZ, PLUS)
     bench.drive(AZ, OFF)
     assert bench.journal.heard[-1] == ("rest", False)
@@ -125,7 +125,7 @@ def test_a_watch_that_goes_away_stops_the_motor_by_its_lease(bench: Bench) -> No
     assert not bench.gpio.level(22)
 
 
-def test_a_look_at_the_supply_is_a_lease_and_its_end_is_told(bench: Bench) -> None:
+def test_a_look_at_the_supply_is_a_lease_and_the_watch_hears_of_its_end(bench: Bench) -> None:
     bench.bank.feed(AZ, bench.clock() + 0.25)
     assert bench.journal.words() == ["renew"]
     bench.clock.sleep(0.3)
@@ -133,7 +133,7 @@ def test_a_look_at_the_supply_is_a_lease_and_its_end_is_told(bench: Bench) -> No
     assert not bench.gpio.level(26)
 
 
-def test_a_look_that_ends_early_while_the_supply_lingers_is_told_too(bench: Bench) -> None:
+def test_the_watch_hears_of_a_look_that_ends_early_while_the_supply_lingers(bench: Bench) -> None:
     """A person lets go of the opposite key while its relay still waits."""
     bench.drive(AZ, PLUS)
     bench.drive(AZ, OFF)

@@ -41,6 +41,6 @@ def test_an_angle_that_is_outside_by_a_rounding_has_the_end_s_own_number() -> No
         (((0, 500), (90, 500)), "numbers must rise, or fall, all the way"),
     ],
 )
-def test_a_table_that_is_none(points: tuple[tuple[float, float], ...], said: str) -> None:
+def test_a_wrong_table_is_refused(points: tuple[tuple[float, float], ...], said: str) -> None:
     with pytest.raises(HardwareError, match=said):
         CommandScale("elevation servo", points)

@@ -94,7 +94,7 @@ def test_no_pulse_before_the_first_aim() -> None:
     assert not bench.drive.position_known(AZ)
 
 
-def test_the_first_pulse_is_where_it_was_told_to_start_and_waits_for_the_servo() -> None:
+def test_the_first_pulse_is_at_the_start_angle_and_waits_for_the_servo() -> None:
     bench = Bench()
     bench.follow(AZ, 120.0, 2.8)
     assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
@@ -119,7 +119,9 @@ def test_outputs_are_enabled_when_the_pulse_is_right_and_not_before() -> None:
     seconds=st.floats(0.05, 2.9),
     stop=st.sampled_from(["hold", "off", "expiry"]),
 )
-def test_a_stop_during_the_jump_stops_it_wherever_it_is(at_deg: tuple[float, float], seconds: float, stop: str) -> None:
+def test_a_stop_during_the_jump_stops_the_servo_at_any_angle(
+    at_deg: tuple[float, float], seconds: float, stop: str
+) -> None:
     bench = Bench(at_deg=at_deg)
     for _ in range(round(seconds / CYCLE_S)):
         bench.drive.aim(AZ, 120.0, 0.0, bench.clock() + 0.25)
@@ -294,7 +296,7 @@ def test_release_is_limp_and_the_next_aim_is_a_first_one() -> None:
     assert bench.antenna(AZ) == pytest.approx(61.0, abs=2 * TICK_DEG)
 
 
-def test_an_idle_servo_gets_no_pulses_though_it_is_told_to_stay() -> None:
+def test_an_idle_servo_gets_no_pulses_though_orders_repeat_its_angle() -> None:
     bench = Bench(idle_off_s=5.0)
     bench.settle()
     bench.follow(AZ, 60.0, 6.0)
@@ -309,7 +311,7 @@ def test_an_idle_servo_gets_no_pulses_though_it_is_told_to_stay() -> None:
 
 
 @pytest.mark.parametrize("fault", ["board-unpowered", "board-dips"])
-def test_a_board_without_supply_is_told_and_comes_back_without_a_pulse(fault: str) -> None:
+def test_a_board_without_supply_is_an_error_and_comes_back_without_a_pulse(fault: str) -> None:
     bench = Bench()
     bench.settle()
     bench.rotor.inject(fault)

@@ -215,7 +215,7 @@ def test_two_seconds_of_silence_are_forgiven(seconds: float, forgiven: bool) -> 
             bench.aims()
 
 
-def test_a_controller_that_lost_its_place_on_the_way_is_told_no_place() -> None:
+def test_a_controller_that_lost_its_place_on_the_way_gets_no_position() -> None:
     bench = Bench()
     bench.moves()
     assert bench.axis.position_known

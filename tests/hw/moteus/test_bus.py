@@ -140,7 +140,7 @@ def test_parked_it_is_spoken_to_ten_times_a_second_and_its_watchdog_stays_quiet(
 
 
 @pytest.mark.parametrize("mishap", ["adapter-deaf", "lines-dropped", "lines-garbled", "lines-late", "azimuth-silent"])
-def test_a_wire_gone_bad_is_told_and_heals(bench: Bench, mishap: str) -> None:
+def test_a_wire_gone_bad_is_logged_and_heals(bench: Bench, mishap: str) -> None:
     bench.world.inject(mishap)
     wait_for(lambda: not bench.answers(AZ))
     assert "moteus 1 does not answer" in bench.complaint(AZ)

@@ -387,7 +387,7 @@ def test_without_a_gear_the_rotors_encoder_knows() -> None:
     assert bench.drive.sensor(AZ).read() == pytest.approx(100.0, abs=0.01)
 
 
-def test_a_controller_that_lost_its_supply_is_looked_at_before_it_is_told_to_move() -> None:
+def test_a_controller_that_lost_its_supply_is_queried_before_it_gets_an_order_to_move() -> None:
     bench = Bench(start_deg=(123.0, 0.0))
     bench.follow(AZ, 150.0, 1.0)
     bench.world.inject("azimuth-silent")

@@ -91,7 +91,7 @@ def test_a_leap_of_half_a_turn_between_two_answers_is_a_lost_supply(jump_deg: fl
     assert placing.unknown == ("" if known else LOST), "only a person says where it is"
 
 
-def test_a_position_that_is_none_is_said() -> None:
+def test_an_answer_without_a_position_makes_the_angle_unknown() -> None:
     placing = direct()
     assert placing.see(says(math.nan)) is None
     assert placing.unknown == "has no position: check its encoder"

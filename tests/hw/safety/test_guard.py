@@ -200,7 +200,7 @@ class FailsInTurn:
         self._lines.close()
 
 
-def test_each_line_that_fails_is_in_the_log_but_a_bug_once_whatever_its_words(
+def test_each_line_that_fails_is_in_the_log_but_a_bug_once_with_any_words(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     said = ("cannot switch azimuth_cw", "cannot switch master")

@@ -82,7 +82,7 @@ def test_the_end_of_the_pipe_is_the_end_of_the_program(program: Program) -> None
     assert program.off_s is not None
 
 
-def test_it_acts_at_the_end_even_where_it_was_told_that_all_is_off(program: Program) -> None:
+def test_it_acts_at_the_end_even_after_the_message_that_all_is_off(program: Program) -> None:
     program.ends()
     assert program.watch_ended()
     assert program.off_s is not None
@@ -176,7 +176,7 @@ def test_it_waits_until_the_kernel_has_taken_the_dead_apart() -> None:
     assert clock() == pytest.approx(0.3, abs=0.01)
 
 
-def test_lines_that_are_never_let_go_are_told_of() -> None:
+def test_lines_that_are_never_released_are_reported() -> None:
     clock = SimClock()
     gpio = SimGpio(clock)
     GpioOutputs(gpio, CHIP, LINES.offsets, consumer="somebody else")

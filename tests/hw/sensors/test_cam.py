@@ -33,7 +33,7 @@ def test_even_zones_are_closed_and_odd_ones_the_gaps_above(angle_deg: float, zon
 
 
 @pytest.mark.parametrize("closes_at_deg", [0.3, 2.5, -1.7, 180.0])
-def test_zones_join_wherever_the_cam_sits(closes_at_deg: float) -> None:
+def test_zones_join_at_any_place_of_the_cam(closes_at_deg: float) -> None:
     cam = Cam(10.0, 2.0, closes_at_deg, 6.0)
     for zone in range(-10, 80):
         assert cam.zone_at((cam.begins_deg(zone) + cam.begins_deg(zone + 1)) / 2) == zone

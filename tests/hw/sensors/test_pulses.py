@@ -161,7 +161,7 @@ def test_missed_pulses_are_noticed() -> None:
 @pytest.mark.parametrize(
     "fault", ["azimuth-contact-stuck-open", "azimuth-contact-stuck-closed", "azimuth-motor-stalled"]
 )
-def test_no_pulse_for_three_periods_is_told_while_it_is_driven(fault: str) -> None:
+def test_no_pulse_for_three_periods_is_seen_while_it_is_driven(fault: str) -> None:
     rig = PulseRig(100.0)
     rig.rotor.inject(fault)
     rig.drive(PLUS, 2.4)
