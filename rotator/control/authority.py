@@ -11,7 +11,7 @@ from rotator.control.rights import Deed, State, hindrance, standing_holds
 from rotator.control.senders import PAUSE_S, Senders
 from rotator.control.sky.angles import Coordinates
 from rotator.exchange.orders import Mode
-from rotator.exchange.sources import CONSOLE, PAGE, PANEL, Source
+from rotator.exchange.sources import CONSOLE, PAGE, PANEL, TRACKER, Source
 from rotator.exchange.status import Latch
 
 AGREE_DEG = 4.0
@@ -100,6 +100,13 @@ class Authority:
     def moves_by_itself(self) -> bool:
         """Whether an idle antenna may park: not in a mode of a person, nor while a person stands at the rotor."""
         return not self.latched and self.mode is Mode.AUTO and not self._attended
+
+    @property
+    def moved_by_page(self) -> bool:
+        """Whether a person on the page moves the antenna, or holds it while it tracks."""
+        by, holder = self.controlled_by, self.held_by
+        mover = holder if by is not None and by.link == TRACKER else by
+        return mover is not None and mover.link == PAGE
 
     @property
     def mode_by(self) -> str:

@@ -110,8 +110,7 @@ class Controller:
 
     def page_lost(self) -> None:
         """The page cannot send STOP now: motion that was ordered on the page ends. Other motion goes on."""
-        by = self._authority.controlled_by
-        if not self._authority.latched and by is not None and by.link == PAGE:
+        if not self._authority.latched and self._authority.moved_by_page:
             self._movements.stop(BOTH)
 
     def note_driven(self, now_s: float, driven: Mapping[Axis, Direction]) -> None:

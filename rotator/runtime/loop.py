@@ -15,7 +15,7 @@ from hw.ports import Axis, HardwareError
 from rotator.control.controller import Controller
 from rotator.exchange.motor import Tries
 from rotator.exchange.orders import Order, Stop
-from rotator.exchange.sources import Source
+from rotator.exchange.sources import PAGE, Source
 from rotator.exchange.status import Latch, Status
 from rotator.rotors.port import Rotor
 from rotator.runtime.errands import Errands
@@ -81,7 +81,7 @@ class ControlLoop:
         self.unkept: tuple[str, ...] = ()
         """Sentences for a person about knowledge that cannot be written to its file. `Autosave` sets them."""
         self._late_s = 0.0
-        self._supply_cut = self._links_lost = False
+        self._supply_cut = self._links_lost = self._page_lost = False
         self.status: Status = controller.status(clock())
         """The latest status. Each step replaces it whole; a status never changes."""
 
@@ -195,15 +195,21 @@ class ControlLoop:
         if stalled_s:
             self._controller.links_lost()
             if not self._links_lost:
-                # This also ends a plan that is being computed for one of them.
-                for listener in self._listeners:
-                    listener(Source(LINKS), Stop())
+                self._end_plans(LINKS)
         self._links_lost = bool(stalled_s)
         self._journal.note(LINKS, "the event loop stands still: what they ordered has ended" if stalled_s else "")
         page_stalled_s = self._page_events.stalled_s(now_s) if self._page_events else 0.0
         if page_stalled_s:
             self._controller.page_lost()
+            if not self._page_lost and self.status.held_by.startswith(PAGE):
+                self._end_plans(PAGE_LOOP)
+        self._page_lost = bool(page_stalled_s)
         self._journal.note(PAGE_LOOP, "it stands still: what was turned there has ended" if page_stalled_s else "")
+
+    def _end_plans(self, lost: str) -> None:
+        """A plan that is being computed for a person or a program there ends too."""
+        for listener in self._listeners:
+            listener(Source(lost), Stop())
 
     def _switch_supply(self) -> None:
         """Cut the motors' supply when a fault requires it; restore it after the acknowledgement. Try until it works."""

@@ -17,14 +17,15 @@ from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.box.app import App
 from rotator.config.load import parse
-from rotator.exchange.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode
-from rotator.exchange.sources import PAGE, Source
+from rotator.exchange.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode, Stop, Take
+from rotator.exchange.sources import PAGE, TRACKER, Source
 from rotator.runtime.event_watch import LONGEST_S, TICK_S, EventWatch
 from rotator.runtime.loop import ControlLoop
 
 PERIOD_S = 0.05
 LINK, PANEL, CONSOLE = Source("gs232b", 1), Source("panel"), Source("console", 1)
 BROWSER = Source(PAGE, 2)
+TRACK = Source(TRACKER)
 COAST_S = 1.5
 """The motor's coast, its relay's delay, and a cycle."""
 PATIENCE_S = 20.0
@@ -155,6 +156,31 @@ def test_what_was_ordered_on_a_page_that_stands_still_ends(order: Order) -> None
     assert rig.turned_deg(10.0) < 0.01, "the old order is not taken up again"
     rig.order(BROWSER, Aim(300.0, 150.0))
     assert rig.turned_deg(1.0) > 1.0
+
+
+def test_what_a_person_tracks_on_a_page_that_stands_still_ends_also_where_its_plan_is_not_ready() -> None:
+    rig, heard = Rig(), list[tuple[Source, Order]]()
+    rig.order(BROWSER, Take(stops=False))
+    rig.order(TRACK, Aim(300.0, 20.0))
+    assert rig.turned_deg(1.0) > 1.0
+    rig.loop.overhear(lambda source, order: heard.append((source, order)))
+    rig.page_ticking = False
+    rig.run(LONGEST_S + COAST_S)
+    assert rig.turned_deg(60.0) < 0.01
+    assert [order for _, order in heard] == [Stop()], "the tracker hears of it, once"
+
+
+@pytest.mark.parametrize("holder", [None, CONSOLE], ids=str)
+def test_what_a_person_at_the_console_tracks_goes_on_without_the_page(holder: Source | None) -> None:
+    rig, heard = Rig(), list[tuple[Source, Order]]()
+    if holder:
+        rig.order(holder, Take(stops=False))
+    rig.order(TRACK, Aim(300.0, 20.0))
+    rig.loop.overhear(lambda source, order: heard.append((source, order)))
+    rig.page_ticking = False
+    rig.run(LONGEST_S + COAST_S)
+    assert rig.turned_deg(1.0) > 1.0
+    assert heard == []
 
 
 @pytest.mark.parametrize(
