@@ -67,7 +67,7 @@ class Mast:
             self._cycle(end_s)
 
     def run_until(self, done: Callable[[], bool]) -> bool:
-        """Whether it came to pass while anybody would wait for it."""
+        """Whether it came to pass while a person would wait for it."""
         end_s = self.clock() + PATIENCE_S
         while not done() and self.clock() < end_s:
             self._cycle(end_s)

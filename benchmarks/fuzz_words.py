@@ -96,7 +96,7 @@ ALL = tuple(piece for pieces, _, _ in SPOKEN.values() for piece in pieces) + STR
 
 
 def nasty(chance: random.Random, pieces: tuple[bytes, ...]) -> bytes:
-    """Good bytes, damaged ones, another protocol's, or none of anybody's."""
+    """Good bytes, damaged ones, another protocol's, or bytes of no protocol."""
     match chance.randrange(10):
         case 0:
             return chance.randbytes(chance.randrange(1, 300))

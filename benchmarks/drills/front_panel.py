@@ -27,6 +27,8 @@ class Turned:
 
 
 class FrontPanel:
+    """Call `turn`, `press` and `pull` for the events of the panel, and `look` in every cycle."""
+
     def __init__(self) -> None:
         self.mode = self._stands_at = "auto"
         """The mode in force, and the position of the switch."""

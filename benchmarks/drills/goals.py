@@ -48,6 +48,8 @@ class Goal:
 
 @dataclass(slots=True)
 class AxisOrders:
+    """The orders in force for one axis, by sender."""
+
     goals: dict[str, Goal] = field(default_factory=dict)
     homes: bool = False
     ended_s: float | None = None

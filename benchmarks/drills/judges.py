@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
+from benchmarks.drills.axis_case import COUNTED_PERIODS, START_S, WELDED_S, AxisCase
 from benchmarks.drills.goals import AxisOrders, Goal
 from benchmarks.drills.orders import Orders
 from benchmarks.drills.world import AxisTruth
@@ -29,16 +30,10 @@ LOOK_S = 0.11
 """A look comes every 0.05 s: a judge may see an event later by this."""
 BEYOND_S = 2.0
 STOP_S = 0.3
-WELDED_S = 2.0
 AWAY_S = 2.0
-TRY_S = 2.0
 TRIES, TRIES_WITHIN_S = 3, 600.0
 LEASE_S = 0.5
-COUNTED_PERIODS = 3
-"""After so many periods of its contact without a change a counted axis can tell that it stands."""
 STREAM_LEAD_S = 5.0
-START_S = 0.5
-"""A motor may take this long to start; a shorter pulse of current is no try."""
 GOING_SHARE = 0.1
 MET_S = 0.7
 """An axis that stops this soon after its relay opened may have coasted to rest: the box need not see a weld."""
@@ -49,6 +44,8 @@ CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
 
 @dataclass(frozen=True, slots=True)
 class Violation:
+    """A find of a judge. `at_s`: seconds from the beginning of the drill; `measured`: in words for a person."""
+
     at_s: float
     judge: str
     axis: str
@@ -56,81 +53,6 @@ class Violation:
 
     def __str__(self) -> str:
         return f"{self.judge}: {self.axis}: {self.measured}, at {self.at_s:.2f} s"
-
-
-@dataclass(slots=True)
-class AxisCase:
-    """What the judges keep of one axis. `slack_deg`: an error of its sensor that no box can notice."""
-
-    low_deg: float
-    high_deg: float
-    tolerance_deg: float
-    slack_deg: float = 1.0
-    shift_deg: float = 0.0
-    """Added to an angle on the rotor's own scale, it gives true degrees."""
-    trusted: bool = True
-    """Whether the box can know the angle of this axis. False: its count is lost, or its model is astray."""
-    astray: bool = False
-    """The hardware has led the model of this axis astray: the axis then moves to the angle of the model."""
-    feels: bool = True
-    """Whether the box has a reading of this axis. Without one it cannot know that the axis stands."""
-    counts: bool = False
-    blind: bool = False
-    """The contact of a counted axis is stuck: nothing shows that a welded relay turns the axis."""
-    shows_ends: bool = False
-    """Limit switches show the ends of the axis, also where the axis was never set up."""
-    repeats: bool = False
-    """The sensor repeats one reading: other faults of the sensor do not show."""
-    deaf: bool = False
-    """The chip of the axis's control box does not hear: only a cut of its supply stops the axis."""
-    misplaced: bool = False
-    """Something may hold the axis at an angle that is no end by its limits and its sensor."""
-    drifts: bool = False
-    """The sensor has drifted: the axis meets one stop at several readings."""
-    beside_deg: float = 0.0
-    """How far a control box may turn after an order to hold: to the angle that its drifted sensor read then."""
-    stalls: bool = False
-    """The motor may have current and stand, at any angle."""
-    ran_on_s: float = 0.0
-    """For how long a welded relay has turned the axis since the box switched that relay off."""
-    patience_s: float = TRY_S
-    """How long the box may take to see that the axis stands."""
-    beyond_s: float = 0.0
-    at_stops_s: float = 0.0
-    """How long the axis was driven against its stops since the latest release by a person."""
-    away_s: float = 0.0
-    idle_s: float = 0.0
-    welded_s: float = 0.0
-    standing_s: float = 0.0
-    pressed_s: float = 0.0
-    """How long the axis stood in its latest run, until that run ended."""
-    stood_s: float = 0.0
-    """For how long a counted axis stood in short runs, taken together: `patience_s` of them is a try."""
-    shorted_s: float = 0.0
-    winds_down_s: float = 0.0
-    """Until this moment a motor may still slow down under current after a stop: that is no try."""
-    tries_s: deque[float] = field(default_factory=deque)
-
-    def beside_s(self, full_dps: float) -> float:
-        return self.beside_deg / full_dps + START_S if self.beside_deg else 0.0
-
-    @property
-    def deaf_s(self) -> float:
-        """How long the box may take to cut the supply of a control box that does not hear."""
-        return max(WELDED_S, self.patience_s) if self.deaf else 0.0
-
-    def rest(self, *, at_stop: bool) -> None:
-        """The box feeds the motor no longer. The time beyond a limit goes on only while the axis stands at its stop.
-
-        A counted axis cannot tell from one short run to the next that it stands: each run counts for itself.
-        """
-        self.pressed_s = self.standing_s or self.pressed_s
-        self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
-        self.away_s = self.idle_s = self.standing_s = 0.0
-
-    def press(self) -> None:
-        """A person who sets the axis up watches it touch its stops: each press is a try of its own."""
-        self.beyond_s = self.standing_s = 0.0
 
 
 class Judges:

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from benchmarks.drills.arcs import Arc
+from benchmarks.drills.axis_case import COUNTED_PERIODS, TRY_S, AxisCase
 from benchmarks.drills.goals import ZENITH_DEG, Ranges
-from benchmarks.drills.judges import COUNTED_PERIODS, TRY_S, AxisCase, Judges
+from benchmarks.drills.judges import Judges
 from benchmarks.drills.orders import Orders
 from benchmarks.drills.script import WORLD, Drill, Event
 from benchmarks.drills.world import AxisTruth

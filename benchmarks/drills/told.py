@@ -39,6 +39,8 @@ class Shows(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Rule:
+    """When a message about a fault is due."""
+
     shows: Shows
     within_s: float = SILENT_S
     every: int = 0

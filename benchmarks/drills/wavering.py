@@ -26,6 +26,8 @@ SWING_S = 120.0
 
 
 class Wavering:
+    """Give it every order for a direction (`ends`), in order of time. The range of azimuth is in true degrees."""
+
     def __init__(self, low_deg: float, high_deg: float) -> None:
         self._low_deg, self._high_deg = low_deg, high_deg
         self._before_deg: tuple[float, ...] = ()

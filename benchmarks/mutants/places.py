@@ -27,7 +27,7 @@ Position = tuple[int, int]
 
 
 class DropStatement(Operator):  # type: ignore[misc]  # it has no types
-    """A call whose value nobody takes, or an assignment to an attribute, does nothing instead."""
+    """A call whose value is not used, or an assignment to an attribute, does nothing instead."""
 
     def mutation_positions(self, node: Any) -> Iterator[tuple[Position, Position]]:
         if node.type != "simple_stmt":

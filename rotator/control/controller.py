@@ -53,6 +53,8 @@ from rotator.exchange.status import AxisStatus, Status
 
 
 class Controller:
+    """Call `step` in every cycle, and `note_driven` after the drives have obeyed. Moments are seconds on one clock."""
+
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
         axes = {

@@ -13,6 +13,8 @@ CYCLE_LATE_S = 0.5
 
 
 class Cycles:
+    """Call `begin` at the beginning of every cycle. `period_s`: from one cycle to the next."""
+
     def __init__(self, period_s: float) -> None:
         self._longest_s = period_s + CYCLE_LATE_S
         self._begun_s: float | None = None

@@ -15,6 +15,8 @@ PAUSE_S = 120.0
 
 
 class PassStarts:
+    """Call `ordered` for every order that moves, and `note_driven` after every cycle."""
+
     def __init__(self) -> None:
         self._counts = dict.fromkeys(Axis, 0)
         self._on = dict.fromkeys(Axis, Direction.OFF)

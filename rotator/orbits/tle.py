@@ -1,4 +1,4 @@
-"""Two-line elements: text ⇄ nothing but `Elements`. With names or without, catalogue numbers in Alpha-5 too.
+"""Two-line elements: from text to `Elements`, with names or without. Catalogue numbers may be in Alpha-5.
 
 Knows the columns, the checksum and the year 1957. Does not know files.
 """

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from benchmarks.drills import judges
+from benchmarks.drills.axis_case import AxisCase
 from benchmarks.drills.goals import Ranges
-from benchmarks.drills.judges import AxisCase, Judges
+from benchmarks.drills.judges import Judges
 from benchmarks.drills.orders import Orders
 from benchmarks.drills.script import Event
 from benchmarks.drills.world import AxisTruth

@@ -21,6 +21,8 @@ NOTICE = Notice(
 
 
 class BadReadings:
+    """Give it every reading of one sensor (`note`), in order of time."""
+
     def __init__(self) -> None:
         self._bad: deque[bool] = deque(maxlen=LOOKED_AT)
         self._count = 0

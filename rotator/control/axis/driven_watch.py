@@ -24,6 +24,8 @@ NEAR_END_DEG = 5.0
 
 
 class DrivenWatch:
+    """Ask it (`judge`) after each good reading, while a relay of the axis is closed."""
+
     def __init__(self, seen: ObservedMotion) -> None:
         self._seen = seen
 

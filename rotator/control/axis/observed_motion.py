@@ -74,7 +74,7 @@ class ObservedMotion:
         from_s = max(turns_s if relays.closed else rests_s, self.trend.since_s)
         if at_s - width_s < from_s:
             return None
-        # A first run that has not convinced yet is looked at whole: there is nothing else to go by.
+        # A first run without a certain speed yet is looked at whole, because there are no other readings.
         return self.trend.slope(at_s - width_s if shown or not relays.closed else from_s)
 
     def whole_run(self, at_s: float, least_s: float) -> Slope | None:

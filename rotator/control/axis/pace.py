@@ -25,6 +25,8 @@ STANDS_DEG = 0.3
 
 
 class Pace:
+    """Give it every good reading (`see`) and every place to which the drive is sent (`sent`), in order of time."""
+
     def __init__(self, settings: PositionedSettings) -> None:
         self._settings = settings
         self._modelled = settings.source is AngleSource.MODELLED

@@ -48,7 +48,7 @@ class ControlledAxis(Protocol):
 
     @property
     def pressed_in_vain(self) -> bool:
-        """Whether presses without a calibration did not move it, often enough to ask a person to look."""
+        """Whether presses without a calibration have failed to move it so often that a person has to look."""
 
     @property
     def confirmable(self) -> bool:

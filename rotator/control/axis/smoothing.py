@@ -13,6 +13,8 @@ SETTLES_S = 0.6
 
 
 class Smoothed:
+    """Give it every good reading of one axis (`see`), in order of time."""
+
     def __init__(self) -> None:
         self._latest: deque[float] = deque(maxlen=READINGS)
 

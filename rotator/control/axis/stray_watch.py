@@ -52,7 +52,7 @@ class StrayWatch:
         self._speed_dps = speed_dps
         self._stray_s = max(STRAY_S, speed_dps / accel_dps2 + TURNED_BACK_S) if accel_dps2 else STRAY_S
         self._apart_deg = max(stray_deg, 2.0 * near_deg)
-        """A target that has moved this far has left the dead band, wherever in it the axis was."""
+        """A target that has moved this far has left the dead band, from any place of the axis in it."""
         self._latest_deg: deque[float] = deque(maxlen=MEAN_OF)
         self._sent_for_s = 0.0
         """For how long, in all, it was sent somewhere."""

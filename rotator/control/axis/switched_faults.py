@@ -58,7 +58,7 @@ class SwitchedFaults:
 
     @property
     def vain_presses(self) -> bool:
-        """Whether presses without a calibration did not move the axis often enough."""
+        """Whether presses without a calibration have failed to move the axis so often that a person has to look."""
         return self._vain.enough
 
     def look(

@@ -38,6 +38,8 @@ _MEDIAN = 0.6745
 
 @dataclass(frozen=True, slots=True)
 class Slope:
+    """How fast the line rises, in degrees a second."""
+
     speed_dps: float
     error_dps: float
     """Standard error of the speed, from the noise of the readings."""
@@ -48,6 +50,8 @@ class Slope:
 
 
 class Trend:
+    """Give it every good reading of one axis (`see`), in order of time. Speeds are in degrees a second."""
+
     def __init__(self) -> None:
         self.noise_deg = _FIRST_NOISE_DEG
         """Scatter of the readings, rms, as seen up to now."""

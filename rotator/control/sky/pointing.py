@@ -28,7 +28,7 @@ HALF_TURN_DEG = 180.0
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
 LEVEL_DEG, LEAVES_DEG = 1.0, 10.0
-"""A stream that waits at the horizon for a rise is no higher, and its next order is no further away."""
+"""A stream waits at the horizon for a rise only while its orders are this low, and each this near to the one before."""
 
 
 class Pointing:

@@ -85,7 +85,7 @@ class WayOut:
 
 
 def ways_out(sectors: Iterable[Kept], where: Box, limits: Box) -> list[WayOut]:
-    """The nearest ways out of the sectors in which the antenna may be; none where it is in none, or cannot leave."""
+    """The nearest ways out of the sectors in which the antenna may be. Empty: it is in no sector, or cannot leave."""
     every = list(sectors)
     inside = [each for each in every if each.box.meets(where)]
     if not inside:

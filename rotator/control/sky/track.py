@@ -47,6 +47,8 @@ _LEAST_FACING = 0.3
 
 
 class Track:
+    """Give it every order for a direction (`note`). Moments are seconds on one clock, and rise."""
+
     def __init__(self) -> None:
         self._orders: deque[tuple[float, float, float]] = deque()
         self._fit: _Fit | None = None

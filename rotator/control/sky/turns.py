@@ -17,6 +17,8 @@ QUIET_S = 120.0
 
 
 class Swings:
+    """Moments are seconds on one clock."""
+
     def __init__(self) -> None:
         self._wait_s = 0.0
         """How long a target must stay beyond the end of the range before the next swing."""
