@@ -10,7 +10,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from tests.install.roots import ENVIRONMENT, PRIVATE, Layer, Said
+from tests.install.roots import PRIVATE, Layer, Said, said
 
 NOT_IN_A_CONTAINER = ("systemd-networkd", "systemd-resolved", "systemd-timesyncd")
 """Services that would touch this machine's network."""
@@ -65,13 +65,4 @@ class Booted:
 
     def run(self, *command: str, **environment: str) -> Said:
         """In the container, as its root."""
-        done = subprocess.run(
-            [*("nsenter", "--target", str(self._first), "--all", "--wd", "--root"), *command],
-            env=ENVIRONMENT | environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        return Said(done.returncode, done.stdout)
+        return said(["nsenter", "--target", str(self._first), "--all", "--wd", "--root", *command], environment)

@@ -98,6 +98,20 @@ class Said:
         return self.text.splitlines()
 
 
+def said(command: list[str], environment: dict[str, str]) -> Said:
+    """Run a command that reads nothing, with `ENVIRONMENT` and these variables."""
+    done = subprocess.run(
+        command,
+        env=ENVIRONMENT | environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    return Said(done.returncode, done.stdout)
+
+
 @dataclass(frozen=True, slots=True)
 class Layer:
     """Where the changes to a root go."""
@@ -164,16 +178,7 @@ class Root:
     def run(self, *command: str, **environment: str) -> Said:
         """In the root, as its root."""
         pid = str(self._holder.pid)
-        done = subprocess.run(
-            ["nsenter", "--target", pid, "--mount", "--root", "--wd", *command],
-            env=ENVIRONMENT | environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        return Said(done.returncode, done.stdout)
+        return said(["nsenter", "--target", pid, "--mount", "--root", "--wd", *command], environment)
 
     def shell(self, script: str) -> Said:
         return self.run("bash", "-ec", script)

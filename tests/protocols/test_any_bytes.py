@@ -6,7 +6,6 @@ The second readings below are written from the protocols' descriptions, by hand 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -20,7 +19,7 @@ from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Box, Session
-from tests.protocols.endless import assert_not_kept
+from tests.protocols.fed import assert_not_kept, assert_well_formed
 from tests.search import examples
 
 if TYPE_CHECKING:
@@ -164,10 +163,7 @@ def f1efw_motions(heard: bytes) -> list[Order]:
 def test_nothing_crashes_and_answers_are_well_formed(
     new_box: type[BenchBox], protocol: str, pieces: list[bytes], silences: set[int]
 ) -> None:
-    session = SESSIONS[protocol](new_box())
-    for number, piece in enumerate(pieces):
-        replies = session.receive(piece) + (session.idle() if number in silences else [])
-        assert all(re.fullmatch(WELL_FORMED[protocol], reply) for reply in replies)
+    assert_well_formed(SESSIONS[protocol](new_box()), pieces, silences, WELL_FORMED[protocol])
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)

@@ -23,7 +23,7 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.session import Box, Session
 from rotator.protocols.spid import Model
 from rotator.protocols.spid_session import SpidSession
-from tests.protocols.endless import assert_not_kept
+from tests.protocols.fed import assert_not_kept, assert_well_formed
 from tests.search import examples, some
 
 if TYPE_CHECKING:
@@ -168,10 +168,7 @@ def dcu1_motions(heard: bytes) -> list[Order]:
 def test_nothing_crashes_and_answers_are_well_formed(
     new_box: type[BenchBox], protocol: str, pieces: list[bytes], silences: set[int]
 ) -> None:
-    session = SESSIONS[protocol](new_box())
-    for number, piece in enumerate(pieces):
-        replies = session.receive(piece) + (session.idle() if number in silences else [])
-        assert all(re.fullmatch(WELL_FORMED[protocol], reply) for reply in replies)
+    assert_well_formed(SESSIONS[protocol](new_box()), pieces, silences, WELL_FORMED[protocol])
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)

@@ -17,7 +17,7 @@ from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
 from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.console_session import ConsoleSession
-from tests.protocols.endless import assert_not_kept
+from tests.protocols.fed import assert_not_kept
 from tests.search import examples
 
 WELL_FORMED = re.compile(rb"(?:(?!ok\n|error: )[^\r\n]+\n)*ok\n|error: [^\r\n]+\n")

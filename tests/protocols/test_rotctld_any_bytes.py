@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Jog, Order, Park
 from rotator.protocols.rotctld_session import RotctldSession
-from tests.protocols.endless import assert_not_kept
+from tests.protocols.fed import assert_not_kept, assert_well_formed
 from tests.search import examples
 
 if TYPE_CHECKING:
@@ -100,10 +100,7 @@ def aims(*words: bytes) -> list[Order]:
 def test_nothing_crashes_and_answers_are_well_formed(
     new_box: type[BenchBox], pieces: list[bytes], silences: set[int]
 ) -> None:
-    session = RotctldSession(new_box())
-    for number, piece in enumerate(pieces):
-        replies = session.receive(piece) + (session.idle() if number in silences else [])
-        assert all(re.fullmatch(WELL_FORMED, reply) for reply in replies)
+    assert_well_formed(RotctldSession(new_box()), pieces, silences, WELL_FORMED)
 
 
 @settings(max_examples=examples(300), deadline=None)
