@@ -1,4 +1,5 @@
-"""Failures around the box: a program that is killed or ends again and again, a card that refuses to be written.
+"""Failures around the box: a program that is killed or ends again and again, a card that refuses to be written,
+a bus that hangs as the program begins.
 
 Drawn with a random stream of its own, so that the rest of the drill stays the same. Knows how often each failure
 happens. Does not judge.
@@ -9,9 +10,9 @@ from __future__ import annotations
 import random
 
 from benchmarks.drills.boxes import BOTH, Mast
-from benchmarks.drills.script import COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Event
+from benchmarks.drills.script import CLOCK, COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Event
 
-LOOPS, CARDS = 0.1, 0.15
+LOOPS, CARDS, BUSES = 0.1, 0.15, 0.04
 """The shares of drills with a program that ends again and again, and with a card that refuses."""
 
 
@@ -29,6 +30,9 @@ def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], fl
     if chance.random() < LOOPS:
         loop, seconds = _loop(chance, mast, seconds)
         events += loop
+    if chance.random() < BUSES:
+        begins_s = chance.choice([0.0, *(event.at_s for event in events if event.who == PROGRAM)])
+        events.append(_at(begins_s, CLOCK, "hung", chance.choice((1.0, 4.0, 8.0, 30.0))))
     return [event for event in events if event.at_s < seconds], seconds
 
 

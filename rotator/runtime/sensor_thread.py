@@ -17,6 +17,9 @@ SENSORS_THREAD = "sensors"
 """The name of the thread."""
 JOIN_S = 1.0
 """How long the end waits for the thread, in seconds."""
+FIRST_S = 3.0
+"""An axis without a reading for this time after the start is silent: its bus hangs, and no answer ever comes."""
+NEVER_READ = "no reading since the start: the bus hangs"
 
 
 class SensorThread:
@@ -38,13 +41,19 @@ class SensorThread:
         self._journal = journal
         self._on_round = on_round
         self._readings: dict[Axis, Reading] = {}
+        self._begun_s: float | None = None
+        """When the control loop first asked for readings; None: not yet."""
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._keep_reading, name=SENSORS_THREAD, daemon=True)
 
     @property
     def readings(self) -> dict[Axis, Reading]:
-        """The latest reading of each axis. An axis without a reading yet is missing here."""
-        return dict(self._readings)
+        """The latest reading of each axis. An axis without a reading yet is missing here, for FIRST_S at most."""
+        now_s = self._clock()
+        self._begun_s = now_s if self._begun_s is None else self._begun_s
+        if len(self._readings) == len(self._rotor.sensors) or now_s - self._begun_s < FIRST_S:
+            return dict(self._readings)
+        return dict.fromkeys(self._rotor.sensors, Reading(self._begun_s, None, NEVER_READ)) | self._readings
 
     def read_all(self) -> None:
         """Read every sensor once: by the thread, or by hand in simulated time."""

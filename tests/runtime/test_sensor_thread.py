@@ -1,0 +1,94 @@
+"""The thread that reads the sensors, where the bus hangs before the first reading: on every kind of rotor it is said.
+
+Judged by what the status says, and by the simulated motors. In simulated time: a cycle without a round of readings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from hw.ports import Axis, Direction
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
+from rotator.config.kinds import KINDS, KindName
+from rotator.config.model import Config
+from rotator.exchange.orders import Jog, Release
+from rotator.exchange.sources import Source
+from rotator.runtime.loop import ControlLoop
+from rotator.runtime.sensor_thread import FIRST_S, NEVER_READ
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+PERIOD_S = 0.05
+TOLD_S = 5.0
+CONSOLE = Source("console")
+
+
+class Rig:
+    """A box whose reading thread hangs while `hangs`."""
+
+    def __init__(self, kind: KindName) -> None:
+        self.kind = kind
+        self.clock = SimClock()
+        config = Config.model_validate({"rotor": {"type": kind}})
+        self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
+        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, PERIOD_S)
+        self.hangs = True
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / PERIOD_S)):
+            if self.hangs:
+                self.loop.act()
+            else:
+                self.loop.cycle()
+            self.clock.sleep(PERIOD_S)
+
+    def told(self) -> set[Axis]:
+        return {axis for axis in Axis if NEVER_READ in str(self.loop.status.axis(axis).fault)}
+
+    def places(self) -> tuple[float, float]:
+        assert self.station.world is not None
+        return self.station.world.antenna()
+
+
+@pytest.fixture(params=list(KINDS))
+def rig(request: pytest.FixtureRequest) -> Iterator[Rig]:
+    rig = Rig(request.param)
+    yield rig
+    rig.station.close()
+
+
+def test_a_bus_that_hangs_from_the_start_is_said_and_no_order_turns_a_motor(rig: Rig) -> None:
+    """No reading ever comes: without a first one there is none that could be late."""
+    twin = Rig(rig.kind)  # a control box without a relay in its supply turns at power-on, without any order
+    twin.run(TOLD_S)
+    rig.loop.post(CONSOLE, Jog(AZ, Direction.PLUS, 2.0))
+    rig.run(TOLD_S)
+    assert rig.told() == set(Axis)
+    assert rig.places() == twin.places()
+    twin.station.close()
+
+
+def test_one_sensor_that_hangs_the_thread_from_the_start_is_said(rig: Rig) -> None:
+    sensors = rig.station.rotor.sensors
+    rig.station.rotor.sensors = {AZ: sensors[AZ]}
+    rig.loop.cycle()
+    rig.station.rotor.sensors = sensors
+    rig.run(TOLD_S)
+    assert EL in rig.told()
+    assert rig.loop.status.azimuth.fault, "its reading is old"
+
+
+def test_a_bus_that_answers_late_is_no_fault_and_one_that_comes_back_may_be_used(rig: Rig) -> None:
+    rig.run(FIRST_S - 0.2)
+    assert rig.told() == set()
+    rig.run(TOLD_S)
+    assert rig.told() == set(Axis)
+    rig.hangs = False
+    for _ in range(2):
+        rig.run(1.0)
+        rig.loop.post(CONSOLE, Release())
+    rig.run(1.0)
+    assert rig.told() == set()
