@@ -27,6 +27,8 @@ log = logging.getLogger(__name__)
 
 KEEP_EVERY_S = 0.5
 """Seconds between two reports to the counts file: a resting axis, or a lost count. The file decides when to write."""
+HANGS_S = 3.0
+"""A mark that takes longer to be written is a fault: the card hangs, and the motor waits for it."""
 
 
 class CountedAxis:
@@ -62,6 +64,8 @@ class CountedAxis:
         self._moved = False
         """Whether it has moved since its last angle at rest was reported."""
         self._reported_lost = False
+        self._waits_s: float | None = None
+        """Since when its motor waits for the mark in the file; None: it does not."""
 
     def begin(self, kept: counts.Place) -> None:
         """Start with the count that the last run stored."""
@@ -142,7 +146,7 @@ class CountedAxis:
         self._scale += 1
 
     def _fault(self) -> Fault | None:
-        write_failure = self._counts_writer.trouble(self._axis) if self._counts_writer else ""
+        write_failure = self._write_failure(self._counts_writer) if self._counts_writer else ""
         if write_failure:
             return Fault(FaultKind.COUNT_NOT_KEPT, self._axis, f"it does not move: {write_failure}", passing=True)
         if self._counter.turning:
@@ -151,6 +155,17 @@ class CountedAxis:
         if self._counter.quiet:
             return Fault(FaultKind.NO_PULSES, self._axis, "its motor ran for three periods, the contact did not change")
         return None
+
+    def _write_failure(self, counts_writer: CountsWriter) -> str:
+        """Why the file does not mark the axis as moving; empty: it does, or will soon."""
+        now_s = self._clock()
+        if not counts_writer.waits(self._axis):
+            self._waits_s = None
+        elif self._waits_s is None:
+            self._waits_s = now_s
+        elif now_s - self._waits_s > HANGS_S:
+            return "its file is not written: the card hangs"
+        return counts_writer.trouble(self._axis)
 
     def _keep(self, angle_deg: float) -> None:
         if self._counts_writer is None or self._doubt:

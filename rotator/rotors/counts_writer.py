@@ -73,6 +73,10 @@ class CountsWriter:
         """Why the motor may not start; empty when it may start now or soon."""
         return self._file.trouble if self._marks[axis] is Mark.REFUSED else ""
 
+    def waits(self, axis: Axis) -> bool:
+        """Whether the mark is still being written."""
+        return self._marks[axis] is Mark.ASKED
+
     def rests(self, now_s: float, axis: Axis, angle_deg: float) -> None:
         """The axis stands at this angle on the rotor's own scale, and its count is right."""
         with self._lock:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,7 @@ from hw.ports import AngleSource, Direction, HardwareError
 from rotator.control.commands import Place as Placed
 from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
-from rotator.rotors.counted import CountedAxis, CountedRotor
+from rotator.rotors.counted import HANGS_S, CountedAxis, CountedRotor
 from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.runtime.loop import COAST_S
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
@@ -172,6 +173,28 @@ def test_a_file_that_cannot_say_so_keeps_the_relay_open(path: Path) -> None:
     path.rmdir()
     mast.wait(1.0)
     assert mast.axis.condition(NO_ENDS).fault is None
+
+
+def test_a_card_that_hangs_is_told_while_the_motor_waits_for_it(path: Path) -> None:
+    mast, jobs = Mast(path, KNOWN), list[Callable[[], None]]()
+    mast.counts_writer = CountsWriter(CountsFile(path, CAMS), jobs.append)
+    mast.counts_writer.load()
+    mast.axis = CountedAxis(AZ, mast.rig.counter, mast.counts_writer, mast.rig.clock)
+    mast.axis.begin(KNOWN)
+    mast.rotor = CountedRotor(
+        mast.rig.bank, {AZ: mast.axis}, {AZ: mast.axis}, Offsets(), counts_writer=mast.counts_writer
+    )
+    told = []
+    for _ in range(round(2.0 * HANGS_S / CYCLE_S)):
+        assert mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2)) is OFF
+        mast.rig.clock.sleep(CYCLE_S)
+        told.append(mast.rotor.condition(AZ).fault)
+    assert told[round(0.9 * HANGS_S / CYCLE_S)] is None
+    assert "the card hangs" in str(told[-1])
+    for job in jobs:
+        job()
+    assert mast.rotor.condition(AZ).fault is None
+    assert mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2)) is PLUS
 
 
 def test_a_rest_is_kept_and_the_next_run_goes_on_from_it(path: Path) -> None:
