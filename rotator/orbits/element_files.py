@@ -129,4 +129,4 @@ def _inside(folder: Path) -> list[Path]:
 
 
 def _stays(earlier: tuple[Elements, ...]) -> str:
-    return f"; the {len(earlier)} sets read from it before stay" if earlier else ""
+    return f"; the {len(earlier)} sets read from it before stay in use" if earlier else ""

@@ -57,7 +57,7 @@ class Elements:
         if not 0 <= self.eccentricity < 1:
             raise NotAnOrbit(f"an eccentricity of {self.eccentricity:g} is no closed orbit")
         if not 0 <= self.inclination_deg <= 180:
-            raise NotAnOrbit(f"an inclination of {self.inclination_deg:g}° is none from 0 to 180")
+            raise NotAnOrbit(f"an inclination of {self.inclination_deg:g}° is not between 0 and 180")
         if not 0 < self.catalogue_number <= 999_999_999:
             raise NotAnOrbit(f"{self.catalogue_number} is no catalogue number of one to nine digits")
 

@@ -197,14 +197,18 @@ class ControlLoop:
             if not self._links_lost:
                 self._end_plans(LINKS)
         self._links_lost = bool(stalled_s)
-        self._journal.note(LINKS, "the event loop stands still: what they ordered has ended" if stalled_s else "")
+        self._journal.note(
+            LINKS, "the event loop stands still: motion that they ordered has ended" if stalled_s else ""
+        )
         page_stalled_s = self._page_events.stalled_s(now_s) if self._page_events else 0.0
         if page_stalled_s:
             self._controller.page_lost()
             if not self._page_lost and self.status.held_by.startswith(PAGE):
                 self._end_plans(PAGE_LOOP)
         self._page_lost = bool(page_stalled_s)
-        self._journal.note(PAGE_LOOP, "it stands still: what was turned there has ended" if page_stalled_s else "")
+        self._journal.note(
+            PAGE_LOOP, "it stands still: motion that was ordered there has ended" if page_stalled_s else ""
+        )
 
     def _end_plans(self, lost: str) -> None:
         """A plan that is being computed for a person or a program there ends too."""

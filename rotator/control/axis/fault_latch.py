@@ -15,7 +15,7 @@ TRIES = 3
 TRIES_WITHIN_S = 600.0
 """After this many faults within this time a link cannot acknowledge the fault: a person does, or the time passes."""
 
-OFTEN = f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: only `resume` or that time acknowledges it"
+OFTEN = f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: within that time only `resume` acknowledges it"
 
 
 class FaultLatch:

@@ -16,7 +16,9 @@ LONG_S = 4.5
 """Or after this time in all: presses that follow each other without a pause look like one."""
 MOVED_DEG, MOVED_NOISES = 0.3, 4.0
 """It has moved when it is further from where it stood than both."""
-IN_VAIN = Notice("presses did not move it: no program turns it before a person has, or says resume", "NOT TURNING")
+IN_VAIN = Notice(
+    "presses did not move it: a program turns it again after a person has turned it, or after `resume`", "NOT TURNING"
+)
 
 
 class VainPresses:

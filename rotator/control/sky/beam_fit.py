@@ -75,14 +75,12 @@ def middle(heard: Sequence[Heard], beam_deg: float) -> Middle:
     """Raises NoPeak."""
     loudest, faintest = max(each.strength_db for each in heard), min(each.strength_db for each in heard)
     if loudest - faintest < 1e-6:
-        raise NoPeak(f"the receiver tells {loudest:g} dB everywhere: does it hear the signal, and is its meter on?")
+        raise NoPeak(f"the receiver shows {loudest:g} dB everywhere: does it hear the signal, and is its meter on?")
     best = min((_Fit(heard, beam_deg, start) for start in _starts(heard, beam_deg)), key=lambda fit: fit.cost)
     best.refine()
     found = best.middle()
     if found.rise_db < LEAST_RISE_DB or best.gain < LEAST_GAIN:
-        raise NoPeak(
-            f"no peak: the strength varies by {loudest - faintest:.1f} dB, and no more at one place than by chance"
-        )
+        raise NoPeak(f"no peak: the strength varies by {loudest - faintest:.1f} dB, as it would by chance alone")
     return found
 
 

@@ -96,7 +96,7 @@ def fitted(points: Sequence[SkyPoint], before: PointingModel = PERFECT) -> Fit:
     left_deg = rms_deg(points, model)
     if left_deg > before_deg - GAIN_DEG:
         raise NoFit(
-            f"the best fit misses these points by {left_deg:.2f}°, the model in force by {before_deg:.2f}°: it stays"
+            f"the best fit misses these points by {left_deg:.2f}°, the model in force by {before_deg:.2f}°; it stays"
         )
     return Fit(model, terms, tuple(point.miss(model) for point in points), left_deg, before_deg)
 

@@ -85,7 +85,7 @@ def test_a_link_acknowledges_two_tries_and_not_the_third() -> None:
     assert [tried(latch, 10.0 * count) for count in range(TRIES)] == [True, True, False]
     assert latch.fault is not None
     assert latch.fault.measured == (
-        "0.0° in 1 s; tried 3 times in 10 minutes: only `resume` or that time acknowledges it"
+        "0.0° in 1 s; tried 3 times in 10 minutes: within that time only `resume` acknowledges it"
     )
 
 

@@ -95,7 +95,7 @@ def test_fading_alone_is_never_taken_for_a_peak() -> None:
 
 
 def test_a_strength_that_never_changes_asks_for_the_receiver() -> None:
-    with pytest.raises(NoPeak, match="tells -54 dB everywhere"):
+    with pytest.raises(NoPeak, match="shows -54 dB everywhere"):
         middle(cross(lambda _right, _above: -54.0), BEAM_DEG)
 
 
