@@ -157,7 +157,7 @@ class Desk:
             self._edge[axis] = edge
 
     def place(self, axis: Axis, angle_deg: float) -> None:
-        """Stand the axis there, at rest, for as long as anybody may remember that it moved."""
+        """Stand the axis there, at rest, until no watch remembers its motion."""
         for _ in range(40):
             self.angle_deg[axis] = angle_deg
             self._speed_dps[axis] = 0.0

@@ -71,7 +71,7 @@ def test_stop_release_and_jog_are_never_refused(order: Order) -> None:
     assert not refused(order, azimuth=(Missing.CALIBRATION,), elevation=(Missing.CALIBRATION,), moving=True)
 
 
-# --- nobody has commissioned it
+# --- an axis that was never commissioned
 
 
 @pytest.mark.parametrize(
@@ -159,7 +159,7 @@ def test_one_coordinate_over_the_top_is_looked_at_with_the_other_one_as_it_goes(
     # Azimuth 175 is reached over the top alone on this rotor, and only with an elevation to turn round.
     half = Mount(Range(180, 360), Range(0, 180), flip=True)
     assert refusal(Aim(10, None), over, half) is None
-    # On a rotor that may not go over the top azimuth 20 is out of reach, wherever azimuth would be at 150.
+    # Without the way over the top azimuth 20 is out of reach: within this range it needs an elevation of 140.
     answer = refusal(Aim(None, 40), over, replace(half, azimuth=Range(180, 350), flip=False))
     assert answer is not None
     assert answer.reason.startswith("azimuth 20 is outside")

@@ -138,7 +138,7 @@ def test_a_release_leaves_no_sender_silenced(authority: Authority) -> None:
 
 
 def test_links_that_came_and_went_are_forgotten() -> None:
-    # memory stays bounded whatever connects
+    # memory stays bounded with any number of connections
     authority = Authority()
     for number in range(300):
         authority.may_move(Source("rotctld", number), float(number))

@@ -112,7 +112,7 @@ def test_turning_the_switch_stops_the_antenna(desk: Any, mode: Mode) -> None:
     desk.step(Aim(235.0, 60.0), by=LINK)
     desk.run(1.0)
     assert desk.step(SetMode(mode), by=PANEL) == RESTING
-    assert desk.run(5.0) == set(), "nobody has asked again"
+    assert desk.run(5.0) == set(), "no order has come since"
     assert desk.status.wanted_azimuth_deg is None
 
 

@@ -25,7 +25,7 @@ BOTH_SIDES = pytest.mark.parametrize(
 
 
 class Steered:
-    """Two drives that are where they are told to be at once, and a fence before them."""
+    """Two drives that are at the commanded angle at once, and a fence before them."""
 
     def __init__(self, azimuth_deg: float, elevation_deg: float = 10.0, sectors: tuple[Sector, ...] = (TOWER,)) -> None:
         self.axes = {axis: self._axis(axis) for axis in Axis}

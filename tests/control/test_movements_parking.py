@@ -1,4 +1,4 @@
-"""Parking: by order, when nobody has moved the antenna for long, and before a storm."""
+"""Parking: by order, when no order has moved the antenna for long, and before a storm."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def test_in_a_storm_it_stays_parked_until_a_person_releases_it() -> None:
 
 
 def test_the_park_position_is_on_the_rotors_own_scale() -> None:
-    """A mount askew by 20°: parked, the rotor's own scale shows the position of the file, whatever north is."""
+    """A mount askew by 20°: parked, the rotor's own scale shows the position of the file, not that of north."""
     clock = SimClock()
     config = parse(CONFIGURATION + "[azimuth]\noffset_deg = 20\n", "test")
     plant = BoxPlant(config, clock, (180.0, 10.0), "gs232")

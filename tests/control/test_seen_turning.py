@@ -1,4 +1,4 @@
-"""The speed of an axis that turns though nobody drives it: seen within a second or two, and never out of noise."""
+"""The speed of an axis that turns without being driven: seen within a second or two, and never out of noise."""
 
 from __future__ import annotations
 

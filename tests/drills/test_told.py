@@ -1,4 +1,4 @@
-"""Every fault of every simulated rotor is judged, or it is said in words why nobody need be told of it."""
+"""Every fault of every simulated rotor has a rule, or a reason in words why no message is due."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rises and sets: at each the true elevation is zero, none is missed, and what never sets is told so."""
+"""Rises and sets: at each the true elevation is zero, none is missed, and a target that never sets has no set."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A drive for tests of the rotors' own code: it writes down in words what it is told. Knows no motor."""
+"""A drive for tests of the rotors' own code: it writes down each command in words. Knows no motor."""
 
 from __future__ import annotations
 

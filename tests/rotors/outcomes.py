@@ -49,7 +49,7 @@ def goes_on(
 BAD = "bad readings"
 STANDS_STILL = "motor runs and pot stands still"
 LOST = Remedy.HOME
-# Arriving after at most 15 s, and then turned by somebody else for a second or two.
+# It arrives after at most 15 s; then a hand turns it for a second or two.
 TURNED = Outcome("relay welded", 22.0, Remedy.AGAIN, turns_on=True)
 
 RELAYS_AND_POTS = {

@@ -157,7 +157,7 @@ class Box:
         self.clock.sleep_until(end_s)
 
     def left_alone(self, seconds: float) -> None:
-        """The control thread gets no turn; whoever guards the drive does."""
+        """The control thread does not run; the guard of the drive does."""
         self.clock.sleep(seconds)
         self._next_s = self.clock()
 

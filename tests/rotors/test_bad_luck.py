@@ -1,7 +1,7 @@
 """Every fault of every simulator, by its name, in mid-move of the whole box: what is said, how soon, and the way back.
 
 The way back is checked against the simulated shaft, not against what the box believes. What needs real time is in
-`test_bad_luck_in_real_time`; a fault that nobody has put down in `outcomes` fails here.
+`test_bad_luck_in_real_time`; a fault that is missing in `outcomes` fails here.
 """
 
 from __future__ import annotations

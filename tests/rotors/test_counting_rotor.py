@@ -17,7 +17,7 @@ NewBox = Callable[..., Box]
 U100 = KINDS[1]
 MINUS, OFF, PLUS = Direction
 PRESS_S = 2.0
-"""What an axis that nobody has homed obeys at a time."""
+"""How long an axis that was not homed obeys one order."""
 SPACING_DEG = 5.0
 """From one closure of the contact to the next."""
 
@@ -98,7 +98,7 @@ def test_the_power_goes_in_mid_move(new_box: NewBox, counts: Path, into_s: float
     stood_deg = again.shaft_deg(AZ)
     again.order(Aim(200.0, None))
     again.run(5.0)
-    assert again.shaft_deg(AZ) == stood_deg, "nobody knows where that is"
+    assert again.shaft_deg(AZ) == stood_deg, "that angle is not known"
     again.order(Jog(AZ, PLUS))
     again.run(PRESS_S + 5.0)
     assert 6.0 < again.shaft_deg(AZ) - stood_deg < PRESS_S * 6.0 + U100.run_on_deg

@@ -1,4 +1,4 @@
-"""The count's file and the control thread: a motor starts only when the file says so, and nobody waits for a disk."""
+"""The count's file and the control thread: a motor starts only when the file says so; control waits for no disk."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def test_a_file_that_cannot_be_written_refuses_and_says_why(path: Path, disk: Sl
     assert counts_writer.trouble(AZ) == "", "nothing is known yet"
     disk.work()
     assert "directory" in counts_writer.trouble(AZ)
-    assert counts_writer.trouble(EL) == "", "nobody has asked for the other"
+    assert counts_writer.trouble(EL) == "", "the other axis was not ordered"
     assert not counts_writer.may_start(AZ)
     path.rmdir()
     disk.work()

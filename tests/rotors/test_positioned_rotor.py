@@ -1,6 +1,6 @@
 """Rotors whose motors go to an angle by themselves, as the control loop sees them: what becomes of its commands.
 
-The drive here writes down what it is told. The real drives have tests of their own.
+The drive here writes down each command. The real drives have tests of their own.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ PATIENCE_S = 20.0
 
 
 class Rig:
-    """A box in simulated time whose event loop ticks until it is told not to."""
+    """A box in simulated time. Its event loop ticks until a test lets it stand still."""
 
     def __init__(self, text: str = "") -> None:
         self.clock = SimClock()

@@ -1,6 +1,6 @@
 """The control loop over the real drivers on a simulated station, in simulated time.
 
-When orders act, what a silent sensor does, and that the relays are off whatever ends the loop.
+When orders act, what a silent sensor does, and that the relays are off after every end of the loop.
 """
 
 from __future__ import annotations
@@ -205,7 +205,7 @@ def test_a_converter_that_goes_stops_the_axes_is_said_once_and_comes_back(
     rig.world.clear("adc-gone")
     rig.run(2.0)
     assert len(records(caplog, "answers again")) == 2
-    assert rig.world.drives() == (0, 0), "nobody has acknowledged the fault"
+    assert rig.world.drives() == (0, 0), "the fault is not acknowledged"
     rig.loop.post(LINK, Stop())
     rig.loop.post(LINK, Aim(300.0, 90.0))
     rig.run(1.0)
@@ -231,7 +231,7 @@ def test_a_bus_that_hangs_stops_the_motors() -> None:
 
 
 class LinesGone:
-    """A drive whose lines the kernel has taken away, for whatever would close a relay."""
+    """A drive whose lines the kernel has taken away: no order can close a relay."""
 
     supplied = True
 

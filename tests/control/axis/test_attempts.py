@@ -20,7 +20,7 @@ JUMPS = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "3 jumps")
 
 
 class Tried:
-    """An axis that stands wherever it is put, at 20 readings a second."""
+    """An axis that stands at the angle that a test sets, with 20 readings a second."""
 
     def __init__(self, at_deg: float = 448.0, before: Tries = NO_TRIES) -> None:
         self.attempts = Attempts(Axis.AZIMUTH, LIMITS, before=before)

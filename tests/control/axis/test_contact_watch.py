@@ -379,7 +379,7 @@ def test_while_it_looks_for_its_stop_it_may_turn_back_there_and_afterwards_not()
     shaft.watch.homes(homing=False, failed=False)
     shaft.run(MINUS)
     shaft.pass_by(4.0)
-    assert shaft.watch.forbids(PLUS), "nobody watches any more"
+    assert shaft.watch.forbids(PLUS), "no person watches any more"
 
 
 def test_homing_that_failed_leaves_the_relay_to_be_seen_like_any_other() -> None:

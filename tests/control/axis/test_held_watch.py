@@ -1,4 +1,4 @@
-"""A control box that is to hold: what a person is told when it turns, and what moves a healthy one."""
+"""A control box that has to hold: the fault when it turns, and what may move a healthy one."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ BOTH_WAYS = pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
 
 
 class Bench:
-    """A watched azimuth axis. What it really does is up to the test: it turns as fast as it is told to."""
+    """A watched azimuth axis. It really turns at the speed that the test sets."""
 
     def __init__(
         self, speed_dps: float = 6.0, noise_deg: float = 0.1, *, master: bool = False, at_deg: float = 200.0

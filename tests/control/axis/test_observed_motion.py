@@ -23,7 +23,7 @@ def seen() -> ObservedMotion:
 
 
 def first_told_s(seen: ObservedMotion, from_s: float, error_dps: float = 1e6) -> float:
-    """How long after `from_s` a speed is told, of readings that do not scatter."""
+    """How long after `from_s` the speed is known, by readings that do not scatter."""
     at_s = from_s
     while seen.speed(at_s, WINDOW, error_dps) is None:
         at_s += STEP_S

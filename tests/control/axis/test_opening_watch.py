@@ -310,13 +310,13 @@ def test_no_supply_and_standing_does_not_acquit_a_relay_found_welded(way: Direct
     assert of(rotor.watch.trusts, way) is WELDED
     rotor.motor.supply, rotor.motor.welded = True, 0
     rotor.look(10.0)
-    assert of(rotor.watch.trusts, way) is WELDED, "somebody may have cut it by hand"
+    assert of(rotor.watch.trusts, way) is WELDED, "a person may have cut the supply by hand"
     rotor.run(way, 1.5)
     rotor.look(2.0)
     assert rotor.watch.trusts == ALL_OPEN
 
 
-# --- nobody has driven it
+# --- it was not driven yet
 
 
 @BOTH_WAYS

@@ -1,4 +1,4 @@
-"""An axis whose motor goes to an angle by itself: what it is told, where it stops, and when it is not believed."""
+"""An axis whose motor goes to an angle by itself: its commands, where it stops, and when it is not believed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STEP_S = 0.02
 
 
 class Motor:
-    """A drive that does what it is told at once, or is stuck; its sensor tells degrees."""
+    """A drive that carries out each command at once, or is stuck; its sensor reads degrees."""
 
     def __init__(
         self,

@@ -113,7 +113,7 @@ def test_a_broken_pot_explains_itself(bench: Bench) -> None:
         "elevation: pot open or shorted: reads 0.004, limit 0.02 to 0.98. Check the pot's wires and its supply"
         " (rotator help pot-open-or-shorted)"
     )
-    assert bench.sensing.raw == 0.004, "the raw value is shown, for whoever looks for the break"
+    assert bench.sensing.raw == 0.004, "the raw value is shown, for a person who looks for the break"
 
 
 def test_a_silent_sensor_says_why(bench: Bench) -> None:

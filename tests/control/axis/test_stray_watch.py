@@ -1,4 +1,4 @@
-"""Whether a positioned axis follows: it comes nearer to where it was sent, or it is told."""
+"""Whether a positioned axis follows: it comes nearer to where it was sent, or there is a fault."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An axis that nobody has commissioned: it says UNCALIBRATED, obeys jog alone, and two seconds a press."""
+"""An axis that was never commissioned: it says UNCALIBRATED, obeys jog alone, and two seconds a press."""
 
 from __future__ import annotations
 

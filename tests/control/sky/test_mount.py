@@ -99,7 +99,7 @@ def test_above_90_is_else_the_direction_that_it_means(order: tuple[float, float]
     assert LOW_BEAM.axis_angles(*order, 0) == axes
 
 
-# --- whatever is asked
+# --- any order
 
 
 @given(MOUNTS, st.floats(-180, 540), st.floats(-90, 180), st.floats(-200, 460))

@@ -213,7 +213,7 @@ def test_a_way_goes_on_the_short_way_also_beyond_the_limits(
         (270, 91.5, 270),
         (90, 271.5, 450),
         (190, 9.2, 190),
-        # With more than a degree between them the shorter one is taken, wherever it leads.
+        # With more than a degree between them the shorter one is taken, at any angle.
         (190, 8, -170),
     ],
 )

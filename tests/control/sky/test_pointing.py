@@ -25,7 +25,7 @@ def pointing() -> Pointing:
 
 
 def stream(pointing: Pointing, first_deg: float, last_deg: float, *, rate_dps: float, every_s: float) -> float:
-    """Orders along the horizon at 20°, the antenna wherever the goals are; returns when the last one came."""
+    """Orders along the horizon at 20°, with the antenna at its goals; returns when the last order came."""
     now_s, azimuth_deg = 0.0, first_deg
     antenna_deg = first_deg % 360
     step_deg = rate_dps * every_s * (1 if last_deg > first_deg else -1)

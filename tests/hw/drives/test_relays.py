@@ -101,7 +101,7 @@ def test_while_one_motor_is_fed_the_other_is_not() -> None:
     assert bench.drive(AZ, PLUS) is PLUS, "the one that runs is not disturbed by the one that asks"
     bench.drive(AZ, OFF)
     assert bench.drive(EL, MINUS) is MINUS
-    assert bench.drive(AZ, PLUS) is OFF, "who came first goes on, whichever axis it is"
+    assert bench.drive(AZ, PLUS) is OFF, "the motor that runs first goes on, on either axis"
     assert bench.on() == {"elevation_down"}
 
 

@@ -1,4 +1,4 @@
-"""Every command of the relay bank ends by itself, whatever line fails; and who waits for that end is woken."""
+"""Every command of the relay bank ends by itself, with any line failing; and the thread that waits for it is woken."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ ROUNDING_S = 1e-9
 
 
 class Ears:
-    """A sentinel that only listens: when a lease was told last, and whether all have ended since."""
+    """A sentinel that only listens: when a lease was last renewed, and whether all have ended since."""
 
     def __init__(self, clock: SimClock) -> None:
         self._clock = clock

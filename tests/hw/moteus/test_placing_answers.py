@@ -103,7 +103,7 @@ def test_a_person_s_word_takes_the_place_of_a_turn_that_was_not_taken_yet() -> N
     assert (placing.unknown, placing.given_rev) == (LOST, None)
     placing.confirmed()
     assert placing.unknown == ""
-    assert placing.see(says(20.0, Home.OUTPUT)) is None, "wherever the new scale shows it"
+    assert placing.see(says(20.0, Home.OUTPUT)) is None, "at any angle of the new scale"
     assert placing.angle_deg(says(20.0, Home.OUTPUT)) == pytest.approx(20.0)
     placing.doubt()
     assert placing.unknown == "", "the controller has it already"

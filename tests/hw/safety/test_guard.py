@@ -1,4 +1,4 @@
-"""The guard's thread in real time: relays open when their command expires, whatever else hangs, fails or dies.
+"""The guard's thread in real time: relays open when their command expires, also when other parts hang, fail or die.
 
 Waits for edges with timeouts far longer than anything should take. Asserts on the moments that the edges carry.
 """
@@ -70,7 +70,7 @@ class Bench:
         self.bank.drive(Axis.AZIMUTH, Direction.OFF, time.monotonic())
 
     def rouse(self) -> None:
-        """Wake whoever still waits for the bank."""
+        """Wake each thread that still waits for the bank."""
         self.drive(0.01)
         self.bank.off()
 
@@ -133,7 +133,7 @@ def test_a_line_that_cannot_be_set_is_tried_again_and_said_aloud(
 
 
 class MeddledClock:
-    """A clock during whose first reading, between the guard's look and its sleep, somebody else gets a turn."""
+    """A clock during whose first reading, between the guard's look and its sleep, another thread runs."""
 
     def __init__(self, meddle: Callable[[], None]) -> None:
         self._meddle: Callable[[], None] | None = meddle

@@ -184,7 +184,7 @@ def test_lines_that_are_never_released_are_reported() -> None:
         switch_off(gpio, LINES, clock, clock.sleep, 1.0)
 
 
-# --- how it is told which lines
+# --- how it gets its lines
 
 
 def test_lines_survive_the_way_as_text() -> None:
