@@ -1,8 +1,8 @@
-"""A JSON file on the card with a second place for a card that refuses: full, read-only, or dying.
+"""A JSON file on the card with a second place for a card that refuses, or hangs: full, read-only, or dying.
 
 The second place is the service's folder in memory: it outlives a killed program, not a boot. Knows which of the two is
-the newer one: the second file is there only while the first could not be written, or is behind. Does not know what the
-content means.
+the newer one: the second file is there only while the first is being written, could not be, or is behind. Does not know
+what the content means.
 """
 
 from __future__ import annotations
@@ -54,9 +54,12 @@ class SparedFile:
         return newer.load(parse, absent=absent, damaged=damaged, consequence=consequence)
 
     def save(self, content: Mapping[str, object]) -> bool:
-        """Write it to the card; in memory where the card refuses. False: the card refuses."""
+        """Write it to the card; in memory until the card has it: a card may hang, and the program be killed meanwhile.
+
+        False: the card refuses.
+        """
+        self.note(content)
         if not self._card.save(content):
-            self.note(content)
             return False
         self.forget_note()
         return True

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+import threading
+import time
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +14,12 @@ import pytest
 
 from rotator.store.forms import Form
 from rotator.store.spared import SparedFile
+from rotator.store.whole import NEW
 from tests.refusing import refuse
 
 FORM = Form("rotator test")
 NOTHING, DAMAGED = -1, -2
+PATIENCE_S = 20.0
 
 
 @pytest.fixture
@@ -43,8 +50,29 @@ def test_a_card_in_order_is_all_that_is_written(card: Path, memory: Path) -> Non
     assert file.save({"number": 7})
     assert (file.trouble, file.outlives, file.in_memory) == ("", True, False)
     assert file.path == card
-    assert not memory.exists()
+    assert not list(memory.iterdir())
     assert loaded(opened(card, None)) == 7
+
+
+WRITES_SEVEN = """
+import sys
+from pathlib import Path
+from tests.store.test_spared import opened
+opened(Path(sys.argv[1]), Path(sys.argv[2])).save({"number": 7})
+"""
+
+
+def test_while_the_card_hangs_a_killed_program_leaves_the_newest_in_memory(card: Path, memory: Path) -> None:
+    opened(card, memory).save({"number": 1})
+    os.mkfifo(card.with_name(card.name + NEW))  # a write to it waits for ever, as on a card that hangs
+    program = subprocess.Popen([sys.executable, "-c", WRITES_SEVEN, card, memory])
+    pause, since_s = threading.Event(), time.monotonic()
+    while not (memory / card.name).exists() and time.monotonic() < since_s + PATIENCE_S:
+        pause.wait(0.02)
+    program.kill()
+    program.wait()
+    assert loaded(opened(card, memory)) == 7
+    assert loaded(opened(card, None)) == 1, "the card has not taken it"
 
 
 def test_what_the_card_refuses_is_read_from_memory_until_the_card_takes_it(card: Path, memory: Path) -> None:
