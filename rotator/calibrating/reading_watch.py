@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from itertools import takewhile
 
 from hw.ports import Axis, Direction
 from rotator.calibrating.entries import Press
@@ -95,7 +96,8 @@ class ReadingWatch:
         if not self.driven or not self._during:
             return False
         began_s, now_s = self._during[0][0], self._during[-1][0]
-        latest = [raw for at_s, raw in self._during if now_s - at_s <= STANDING_S]
+        lately = takewhile(lambda seen: now_s - seen[0] <= STANDING_S, reversed(self._during))
+        latest = [raw for _, raw in lately][::-1]
         half = len(latest) // 2
         if now_s - began_s <= STANDING_S or half < REST_READINGS // 2:
             return False

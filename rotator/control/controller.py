@@ -155,9 +155,8 @@ class Controller:
         status = self._axes[axis].status(now_s, starts=starts, more=more)
         if status.moving or status.drive is not Direction.OFF:
             self._turning[axis].driven()
-        if not status.seen:
-            return status
-        return replace(status, by_itself_dps=self._turning[axis].speed_dps(status.noise_deg))
+        turns_dps = self._turning[axis].speed_dps(status.noise_deg) if status.seen else 0.0
+        return replace(status, by_itself_dps=turns_dps) if turns_dps else status
 
     @contextmanager
     def _noting_refusals(self) -> Iterator[None]:

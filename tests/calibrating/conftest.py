@@ -24,6 +24,16 @@ def calibration() -> Callable[..., Calibration]:
 
 
 @pytest.fixture
+def swift(calibration: Callable[..., Calibration]) -> Callable[..., Calibration]:
+    """Begins one with an azimuth motor of 30°/s, so that the whole range takes 8 presses. `sim`: more of that table."""
+
+    def start(text: str = "", sim: str = "") -> Calibration:
+        return calibration(f"{text}[sim.azimuth]\nspeed_dps = 30\n{sim}")
+
+    return start
+
+
+@pytest.fixture
 def north_calibration() -> Callable[..., NorthCalibration]:
     def start(text: str, **rest: Any) -> NorthCalibration:
         return NorthCalibration(parse(text + QUIET, "test"), **rest)

@@ -8,8 +8,9 @@ import pytest
 
 from hw.ports import Axis
 
-TO_LOW, TO_HIGH = 5, 40
-"""Presses from 30° to the stop at -2°, and from there to the one at 452°."""
+TO_LOW, TO_HIGH, BACK = 2, 9, 2
+"""Presses of the swift motor from 30° to the stop at -2°, from there to the one at 452°, and some way back."""
+SLOWLY_TO_LOW = 5
 
 
 def directions(run: Any, plus: str = "r", minus: str = "l") -> None:
@@ -24,8 +25,8 @@ def both_ends(run: Any) -> None:
     run.say("", "452")
 
 
-def test_from_the_first_press_to_the_table(calibration: Any) -> None:
-    run = calibration()
+def test_from_the_first_press_to_the_table(swift: Any) -> None:
+    run = swift()
     both_ends(run)
     run.say("f", "", "", "y")
     done = run.guide.result
@@ -47,11 +48,11 @@ def test_elevation_has_its_own_keys(calibration: Any) -> None:
     assert (run.guide.result.min_deg, run.guide.result.max_deg) == (0.0, 90.0)
 
 
-def test_points_between_straighten_a_bowed_pot(calibration: Any) -> None:
-    run = calibration("[sim.azimuth]\npot_bow_deg = 8\npot_noise_deg = 0.05\n")
+def test_points_between_straighten_a_bowed_pot(swift: Any) -> None:
+    run = swift(sim="pot_bow_deg = 8\npot_noise_deg = 0.05\n")
     both_ends(run)
     for _ in range(3):
-        run.drive("l", 9)
+        run.drive("l", BACK)
         run.say("", f"{run.shaft_deg():.2f}")
     table = run.say("f")
     assert len([line for line in table.splitlines() if line.count("°") == 3]) == 5
@@ -62,8 +63,8 @@ def test_points_between_straighten_a_bowed_pot(calibration: Any) -> None:
     assert raws == sorted(raws)
 
 
-def test_a_pot_wired_the_other_way_round_is_as_good(calibration: Any) -> None:
-    run = calibration()
+def test_a_pot_wired_the_other_way_round_is_as_good(swift: Any) -> None:
+    run = swift()
     run.world.inject("azimuth-pot-reversed")
     run.wait(0.5)
     assert "The reading falls with it: good" in run.say("r", "y")
@@ -75,16 +76,16 @@ def test_a_pot_wired_the_other_way_round_is_as_good(calibration: Any) -> None:
     assert [raw for raw, _ in run.guide.result.points] == pytest.approx([0.954, 0.046], abs=3e-4)
 
 
-def test_it_tells_the_margin_to_a_broken_wire_in_readings_degrees_and_volts(calibration: Any) -> None:
-    run = calibration()
+def test_it_tells_the_margin_to_a_broken_wire_in_readings_degrees_and_volts(swift: Any) -> None:
+    run = swift()
     both_ends(run)
     table = run.say("f")
-    assert "0.0260 (13°, 0.086 V) above lowest_reading (0.02)" in table
+    assert "0.0260 (13°, 0.086 V) below highest_reading (0.98)" in table
     assert "That is little" not in table
 
 
-def test_a_narrow_margin_is_said(calibration: Any) -> None:
-    run = calibration("[azimuth]\nlowest_reading = 0.04\n")
+def test_a_narrow_margin_is_said(swift: Any) -> None:
+    run = swift("[azimuth]\nlowest_reading = 0.04\n")
     both_ends(run)
     assert "That is little" in run.say("f")
 
@@ -92,15 +93,15 @@ def test_a_narrow_margin_is_said(calibration: Any) -> None:
 # --- slips
 
 
-def test_what_was_understood_is_said(calibration: Any) -> None:
-    run = calibration()
+def test_what_was_understood_is_said(swift: Any) -> None:
+    run = swift()
     directions(run)
     run.drive("l", TO_LOW)
     assert "Understood: -2.5°." in run.say("", "-2,5")
 
 
-def test_a_missing_digit_is_asked_about(calibration: Any) -> None:
-    run = calibration()
+def test_a_missing_digit_is_asked_about(swift: Any) -> None:
+    run = swift()
     directions(run)
     run.drive("l", TO_LOW)
     run.say("", "-2")
@@ -108,16 +109,16 @@ def test_a_missing_digit_is_asked_about(calibration: Any) -> None:
     assert "45° is 405° off: the file has 450° for this end." in run.say("", "45")
     assert run.guide.prompt == "Is 45° right? y or n:"
     run.say("n", "", "452")
-    run.drive("l", 9)
+    run.drive("l", BACK)
     assert "off: the other points lie on another line." in run.say("", f"{run.shaft_deg() - 100:.0f}")
     run.say("n", "f", "", "", "y")
     assert [angle_deg for _, angle_deg in run.guide.result.points] == [-2.0, 452.0]
 
 
-def test_a_point_is_taken_back_and_then_the_ends(calibration: Any) -> None:
-    run = calibration()
+def test_a_point_is_taken_back_and_then_the_ends(swift: Any) -> None:
+    run = swift()
     both_ends(run)
-    run.drive("l", 9)
+    run.drive("l", BACK)
     run.say("", f"{run.shaft_deg():.1f}")
     assert "Taken back" in run.say("b")
     assert "Taken back: 452°." in run.say("b")
@@ -196,7 +197,7 @@ def test_while_it_asks_nothing_turns(calibration: Any) -> None:
 def test_at_a_stop_it_says_so(calibration: Any) -> None:
     run = calibration()
     directions(run)
-    assert "at its stop" in run.drive("l", TO_LOW)
+    assert "at its stop" in run.drive("l", SLOWLY_TO_LOW)
 
 
 @pytest.mark.parametrize("word", ["what", "r x", "12 13", "yes please", "é"])
@@ -213,7 +214,7 @@ def test_words_that_mean_nothing_do_nothing(calibration: Any, word: str) -> None
 def test_a_relay_in_doubt_at_a_stop_is_noted_and_it_turns_back(calibration: Any) -> None:
     run = calibration()
     directions(run)
-    run.drive("l", TO_LOW)
+    run.drive("l", SLOWLY_TO_LOW)
     assert "the box could not see the relay counter-clockwise open" in run.text
     stop_deg = run.shaft_deg()
     run.drive("r", 2)

@@ -90,35 +90,35 @@ def test_an_angle_that_is_none(calibration: Any) -> None:
 
 @pytest.mark.parametrize(
     ("angle", "reason"),
-    [("500", "not between the ends"), ("-2", "in the table already"), ("430", "Taken")],
+    [("500", "not between the ends"), ("-2", "in the table already"), ("332", "Taken")],
 )
-def test_a_point_between_that_is_not(calibration: Any, angle: str, reason: str) -> None:
-    run = at_the_low_end(calibration())
-    run.say("", "-2", *["r"] * 40)
+def test_a_point_between_that_is_not(swift: Any, angle: str, reason: str) -> None:
+    run = at_the_low_end(swift())
+    run.say("", "-2", *["r"] * 9)
     run.say("", "452", "l", "l")
     assert reason in run.say("", angle)
 
 
-def test_not_monotonic(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    run.say("", "-2", *["r"] * 40)
-    run.say("", "452", *["l"] * 10)
-    run.say("", "330", *["l"] * 10)
+def test_not_monotonic(swift: Any) -> None:
+    run = at_the_low_end(swift())
+    run.say("", "-2", *["r"] * 9)
+    run.say("", "452", *["l"] * 2)
+    run.say("", "330", *["l"] * 2)
     assert "not monotonic" in run.say("", "380")
 
 
-def test_limits_beyond_the_ends(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    run.say("", "0", *["r"] * 40)
+def test_limits_beyond_the_ends(swift: Any) -> None:
+    run = at_the_low_end(swift())
+    run.say("", "0", *["r"] * 9)
     run.say("", "450", "f", "-5", "460")
     assert "the limits must lie within 0 to 450" in run.text
     assert run.guide.prompt.startswith("Lowest angle")
 
 
 @pytest.mark.parametrize("answer", ["n"])
-def test_an_operator_who_does_not_want_it(calibration: Any, answer: str) -> None:
-    run = at_the_low_end(calibration())
-    run.say("", "0", *["r"] * 40)
+def test_an_operator_who_does_not_want_it(swift: Any, answer: str) -> None:
+    run = at_the_low_end(swift())
+    run.say("", "0", *["r"] * 9)
     run.say("", "450", "f", "", "", answer)
     assert run.guide.ended
     assert run.guide.result is None
@@ -157,9 +157,9 @@ def test_back_at_the_angle_goes_back_to_the_end_and_yes_reads_it(calibration: An
     assert "It reads 0." in run.say("y")
 
 
-def test_back_at_the_highest_angle_asks_for_the_lowest_again(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    run.say("", "0", *["r"] * 40)
+def test_back_at_the_highest_angle_asks_for_the_lowest_again(swift: Any) -> None:
+    run = at_the_low_end(swift())
+    run.say("", "0", *["r"] * 9)
     run.say("", "450", "f", "", "b")
     assert run.guide.prompt.startswith("Lowest angle")
 

@@ -124,6 +124,8 @@ class SwitchedFaults:
         if self._counts:
             return replace(tries, driven=self._silent and self.fault is None)
         pressed = self._vain.enough and not self._calibrated
+        if not tries.driven and not pressed:
+            return tries
         return replace(tries, driven=tries.driven and self._calibrated, pressed=pressed)
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
