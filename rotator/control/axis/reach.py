@@ -62,6 +62,9 @@ def bounds(described: Motor, learnt: Motor) -> Bounds:
 class Reach:
     def __init__(self, settings: SwitchedSettings) -> None:
         self._described = settings.motor
+        self._learnt: dict[Direction, Motor] = {}
+        self._known: dict[Direction, Bounds] = {}
+        """Of these motors."""
         homing = settings.homing
         self._step_deg = homing.period_s * settings.motor.speed_dps if homing else 0.0
         """How far the axis may be from its reading: a count knows only the latest pulse."""
@@ -89,7 +92,10 @@ class Reach:
         return _further(span, run.direction, motor.speed_dps * max(0.0, run.until_s - now_s) + coast_deg)
 
     def _bounds(self, motion: Motion) -> dict[Direction, Bounds]:
-        return {direction: bounds(self._described, motor) for direction, motor in motion.motors.items()}
+        if motion.motors != self._learnt:
+            self._learnt = dict(motion.motors)
+            self._known = {way: bounds(self._described, motor) for way, motor in motion.motors.items()}
+        return self._known
 
 
 def _going_on_deg(motor: Bounds, relays: RelayState, age_s: float, now_s: float) -> float:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from hw.ports import Direction
 from rotator.control.sky.mount import Range
@@ -85,7 +85,7 @@ class RestPlace:
         drift_deg = 0.0 if self.at_deg is None else rest.mean_deg - self.at_deg
         self.at_deg = rest.mean_deg
         if self._start is not None:
-            self._start = replace(self._start, mean_deg=self._start.mean_deg + drift_deg)
+            self._start = Rest(self._start.mean_deg + drift_deg, self._start.count)
         return drift_deg
 
     def left_deg(self, noise_deg: float) -> float | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.mount import Range, Sector
@@ -36,7 +36,7 @@ class Box:
 
     def but(self, axis: Axis, span: Range) -> Box:
         """The same box with another span of one axis."""
-        return replace(self, azimuth=span) if axis is Axis.AZIMUTH else replace(self, elevation=span)
+        return Box(span, self.elevation) if axis is Axis.AZIMUTH else Box(self.azimuth, span)
 
     def meets(self, other: Box) -> bool:
         return self.azimuth.meets(other.azimuth) and self.elevation.meets(other.elevation)
