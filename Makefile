@@ -28,7 +28,7 @@ tests: $(VENV)/.dev
 	$(if $(TESTS),,$(BIN)/pytest -n 2 tests/page/test_first_look.py || failed=1;) \
 	exit $$failed
 
-# Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases. `make test` tries a quarter.
+# Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases. `make test` tries an eighth.
 test-search: $(VENV)/.dev
 	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m "hypothesis or search" tests tests/cli
 

@@ -1,4 +1,4 @@
-"""How far a search goes: `make test` tries a quarter of the examples of each, `make test-search` all of them.
+"""How far a search goes: `make test` tries an eighth of the examples of each, `make test-search` all of them.
 
 Knows numbers of examples alone. A search is a test with hypothesis, or one with the mark `search`: it draws its own
 cases, or sweeps over many that are dear, each a world of its own. What it looks for is the same in both.
@@ -11,14 +11,15 @@ from collections.abc import Sequence
 from typing import TypeVar
 
 WHOLE = os.environ.get("ROTATOR_SEARCH") == "whole"
-LEAST = 10
+SHARE, LEAST = 8, 10
+"""`make test` tries one case in so many, but of drawn examples no fewer than these."""
 Case = TypeVar("Case")
 
 
 def examples(most: int) -> int:
-    return most if WHOLE else max(most // 4, min(most, LEAST))
+    return most if WHOLE else max(most // SHARE, min(most, LEAST))
 
 
 def some(cases: Sequence[Case]) -> Sequence[Case]:
-    """The cases of a sweep: every fourth from the first on, or all."""
-    return cases if WHOLE else cases[::4]
+    """The cases of a sweep: every eighth from the first on, or all."""
+    return cases if WHOLE else cases[::SHARE]

@@ -11,6 +11,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.reach import bounds
 from rotator.control.sky.mount import Range, Sector
 from rotator.exchange.orders import Aim, Park, Release, Stop
+from tests.search import some
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
@@ -50,7 +51,8 @@ def test_a_stream_into_it_waits_beside_it_and_goes_round_to_a_target_beyond(besi
     assert starts < 25
 
 
-@pytest.mark.parametrize("described", [0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5, 2.5])
+@pytest.mark.search
+@pytest.mark.parametrize("described", some([0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5, 2.5]))
 def test_with_any_wrong_speed_in_the_file_it_waits_where_the_fence_lets_it_start_again(
     new_desk: Any, described: float
 ) -> None:
