@@ -33,7 +33,6 @@ speed_dps = 5.4
 """Motors twice as fast as a G-5500's: half the simulated time."""
 
 
-
 class Station:
     def __init__(self) -> None:
         self.clock = SimClock()

@@ -6,6 +6,7 @@ import math
 import random
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 
 import pytest
 
@@ -26,10 +27,15 @@ from tests.search import examples
 SATELLITES = {name: Satellite(elements, PARIS) for name, elements in FLYING.items()}
 
 
-def pass_of(name: str, number: int = 0) -> Pass:
+@cache
+def first_day(name: str) -> list[Pass]:
     satellite = SATELLITES[name]
     from_s = satellite.elements.epoch_utc_s
-    return list(passes(satellite, from_s, from_s + 86_400.0, 8.0))[number]
+    return list(passes(satellite, from_s, from_s + 86_400.0, 8.0))
+
+
+def pass_of(name: str, number: int = 0) -> Pass:
+    return first_day(name)[number]
 
 
 def rise_s(name: str, number: int = 0) -> float:

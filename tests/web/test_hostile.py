@@ -16,6 +16,7 @@ import pytest
 
 from rotator.web.connections import ANSWER_S, MOST, SILENT_S, Connections, machine
 from rotator.web.live import EVERY_S, TAKES_S
+from tests.search import examples
 from tests.web.conftest import OFF, PATIENCE_S, Box
 
 Start = Callable[..., AbstractAsyncContextManager[Box]]
@@ -152,14 +153,16 @@ def test_a_body_without_end_is_cut_off(page_box: Start, path: bytes, body: bytes
     asyncio.run(main())
 
 
-def test_ten_thousand_half_open_requests_keep_nobody_from_stop(page_box: Start) -> None:
-    """As from 250 machines. A person looks on, and presses STOP while they come and when all have come."""
+@pytest.mark.search
+def test_thousands_of_half_open_requests_keep_nobody_from_stop(page_box: Start) -> None:
+    """As from 250 machines, ten thousand in all in `make test-search`. A person looks on, and presses STOP while they
+    come and when all have come."""
 
     async def main() -> None:
         async with page_box() as box, box.http.ws_connect(f"{box.url}/api/live") as live:
             await box.pair()
             pipe = asyncio.subprocess.PIPE
-            command = (sys.executable, "-m", "tests.web.flood", str(_place(box)[1]), "10000")
+            command = (sys.executable, "-m", "tests.web.flood", str(_place(box)[1]), str(examples(10_000)))
             flood = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe)
             assert flood.stdout is not None
             try:
