@@ -8,7 +8,7 @@ passes that cross north: those have rows of their own.
 
 from __future__ import annotations
 
-import sys
+import argparse
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
@@ -141,9 +141,12 @@ def details(flights: list[Flight]) -> str:
 
 
 def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--each", action="store_true", help="print every flight too")
+    asked = parser.parse_args()
     flights = fly_all(KINDS, PASS_NAMES)
     print(markdown(flights))
-    if "--each" in sys.argv:
+    if asked.each:
         print()
         print(details(flights))
 

@@ -6,7 +6,7 @@ flight for `rotator rehearse --svg`.
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 from rotator.config.load import parse
@@ -26,4 +26,6 @@ def flown() -> tuple[Flown, Flown]:
 
 
 if __name__ == "__main__":
-    Path(sys.argv[1]).write_text(draw(TARGET, flown()), encoding="utf-8")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", type=Path)
+    parser.parse_args().file.write_text(draw(TARGET, flown()), encoding="utf-8")

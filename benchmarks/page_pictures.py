@@ -7,6 +7,7 @@ says.
 
 from __future__ import annotations
 
+import argparse
 import socket
 import subprocess
 import sys
@@ -182,4 +183,6 @@ def _until_it_answers() -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    main(parser.parse_args().folder)

@@ -8,9 +8,9 @@ Markdown table; `--svg FILE` keeps the means and draws them. Every figure is the
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
-import sys
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
@@ -113,7 +113,11 @@ def known() -> None:
 
 
 def main() -> None:
-    if "--known" in sys.argv:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--known", action="store_true", help="only passes that the box knows beforehand")
+    parser.add_argument("--svg", type=Path, metavar="FILE", help="keep the means, and draw them")
+    asked = parser.parse_args()
+    if asked.known:
         known()
         return
     flights = fly_all((None, *TOLERANCES_DEG))
@@ -134,9 +138,9 @@ def main() -> None:
     quiet = series["box at 4°"][0]
     print(means_line("box at 4°, noise x 4", chosen) + f", {mean([f.starts for f in chosen]) / quiet:.2f} x the starts")
     known()
-    if "--svg" in sys.argv:
+    if asked.svg is not None:
         FIGURES.write_text(json.dumps(series, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-        Path(sys.argv[sys.argv.index("--svg") + 1]).write_text(kept(), encoding="utf-8")
+        asked.svg.write_text(kept(), encoding="utf-8")
 
 
 if __name__ == "__main__":

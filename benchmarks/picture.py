@@ -5,9 +5,9 @@ Knows how to draw and where a label has room. `benchmarks.passes` flies, and kee
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -147,4 +147,6 @@ def kept() -> str:
 
 
 if __name__ == "__main__":
-    Path(sys.argv[1]).write_text(kept(), encoding="utf-8")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", type=Path)
+    parser.parse_args().file.write_text(kept(), encoding="utf-8")

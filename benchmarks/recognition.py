@@ -8,9 +8,9 @@ of them: none to twenty, drawn for each moment. Prints how many streams it has r
 
 from __future__ import annotations
 
+import argparse
 import math
 import random
-import sys
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
@@ -110,7 +110,7 @@ def is_recognised(watch: StreamWatch, path: Path, from_s: float, per_degree: int
     return False
 
 
-def main(count: int = STREAMS, seed: int = 15, satellites: int = SATELLITES) -> None:
+def main(count: int, seed: int, satellites: int) -> None:
     dice = random.Random(seed)
     elements = catalogue(dice, satellites)
     sent, taken = Counter[str](), Counter[str]()
@@ -129,4 +129,9 @@ def main(count: int = STREAMS, seed: int = 15, satellites: int = SATELLITES) -> 
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:4]))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("streams", type=int, nargs="?", default=STREAMS)
+    parser.add_argument("seed", type=int, nargs="?", default=15)
+    parser.add_argument("satellites", type=int, nargs="?", default=SATELLITES, help="so many are known to the box")
+    asked = parser.parse_args()
+    main(asked.streams, asked.seed, asked.satellites)

@@ -6,9 +6,9 @@ Starts the box on the simulated rotor, orders it about over its own pseudo-termi
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import os
-import sys
 import tempfile
 from pathlib import Path
 
@@ -74,6 +74,8 @@ tcp = "127.0.0.1:4533"
 """
 
 if __name__ == "__main__":
-    target = Path(sys.argv[1]).resolve()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", type=Path)
+    target: Path = parser.parse_args().file.resolve()
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(asyncio.run(take()))

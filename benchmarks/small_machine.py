@@ -9,6 +9,7 @@ fifth.
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import random
@@ -159,7 +160,9 @@ def _passes() -> Iterator[str]:
 
 
 def main() -> None:
-    minutes = float(sys.argv[1]) if len(sys.argv) > 1 else 60.0
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("minutes", type=float, nargs="?", default=60.0, help="for each kind of rotor")
+    minutes: float = parser.parse_args().minutes
     for kind in KINDS:
         try:
             result = measure(60.0 * minutes, kind)

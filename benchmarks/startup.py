@@ -9,6 +9,7 @@ stay about the same. The box of `rotator run` is a simulated one in a folder of 
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import select
@@ -163,4 +164,6 @@ def opened_line(path: Path) -> int:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 10)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("runs", type=int, nargs="?", default=10)
+    main(parser.parse_args().runs)

@@ -7,10 +7,10 @@ The simulated rotor is the one that the file names.
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import json
 import logging
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -65,4 +65,6 @@ async def main(config: Path) -> None:
 
 
 if __name__ == "__main__":
-    asyncio.run(main(Path(sys.argv[1])))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("config", type=Path)
+    asyncio.run(main(parser.parse_args().config))

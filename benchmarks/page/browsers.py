@@ -8,6 +8,7 @@ Does not know the box.
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import json
 import random
@@ -115,4 +116,8 @@ async def main(url: str, count: int) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(asyncio.run(main(sys.argv[1], int(sys.argv[2])))))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("url")
+    parser.add_argument("count", type=int)
+    asked = parser.parse_args()
+    print(json.dumps(asyncio.run(main(asked.url, asked.count))))

@@ -6,6 +6,7 @@ GS-232 program. Prints the moment before, on the clock that all processes of a c
 
 from __future__ import annotations
 
+import argparse
 import http.client
 import socket
 import sys
@@ -28,4 +29,8 @@ def main(page_port: int, link_port: int) -> None:
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("page_port", type=int)
+    parser.add_argument("link_port", type=int)
+    asked = parser.parse_args()
+    main(asked.page_port, asked.link_port)
