@@ -5,6 +5,7 @@ A twin that is not given the order shows what goes on without it.
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -161,15 +162,21 @@ ORDERS: dict[Deed, tuple[Source, Order]] = {
 }
 
 
+_MADE: dict[State, bytes] = {}
+
+
 def in_state(new_desk: Any, state: State) -> Any:
-    attended = state is State.CALIBRATING
-    missing = {AZ: (Missing.LIMITS,)} if attended else {}
-    desk = new_desk(counted=True, at=(150.0, 35.0), park=PARKED, park_after_s=12.0, missing=missing, attended=attended)
-    desk.step()
-    SET_UP[state](desk)
-    desk.run(1.0)
-    desk.controller.errands.clear()
-    return desk
+    """A desk in this state: a copy of the first one."""
+    if state not in _MADE:
+        attended = state is State.CALIBRATING
+        more: dict[str, Any] = {"missing": {AZ: (Missing.LIMITS,)} if attended else {}, "attended": attended}
+        desk = new_desk(counted=True, at=(150.0, 35.0), park=PARKED, park_after_s=12.0, **more)
+        desk.step()
+        SET_UP[state](desk)
+        desk.run(1.0)
+        desk.controller.errands.clear()
+        _MADE[state] = pickle.dumps(desk)
+    return pickle.loads(_MADE[state])
 
 
 def targets(desk: Any) -> tuple[float | None, float | None]:

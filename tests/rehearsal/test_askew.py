@@ -45,6 +45,6 @@ def test_without_its_model_the_boom_is_as_far_off_as_the_mount() -> None:
 def test_park_is_a_place_of_the_axes() -> None:
     box = flown_to(100.0, 30.0, model=ASKEW, park_azimuth_deg=50, park_elevation_deg=20)
     box.post(Source("console"), Park())
-    box.run_until(200.0)
+    box.run_until(80.0)
     angles = box.status.azimuth.angle_deg, box.status.elevation.angle_deg
     assert angles == pytest.approx((50, 20), abs=0.2)
