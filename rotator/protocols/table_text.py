@@ -50,12 +50,19 @@ def read_table(text: str, name: str, place: str, *, turns: bool = False) -> Time
         raise TableError(f"{place}: cannot be read: {fault}. {FORM}") from fault
     rows: list[Row] = []
     numbers: list[int] = []
+    before = ""
     for number, values in table:
         if not "".join(values).strip():
             continue
         row = _row(f"{place}:{number}", header, values, turns=turns)
+        moment = values[header.index("t")].strip()
+        if rows and (row[0] >= SINCE_1970_S) is not (rows[-1][0] >= SINCE_1970_S):
+            raise TableError(
+                f"{place}:{number}: t is {moment}, and {before} in the row before: write each t in seconds, or each in "
+                "UTC"
+            )
         if rows and row[0] <= rows[-1][0]:
-            raise TableError(f"{place}:{number}: t must rise from row to row: {row[0]:g} comes after {rows[-1][0]:g}")
+            raise TableError(f"{place}:{number}: t must rise from row to row: {moment} comes after {before}")
         if rows and row[0] - rows[-1][0] < LEAST_S:
             raise TableError(
                 f"{place}:{number}: is less than {LEAST_S:g} s after the row before: leave one of them out"
@@ -67,6 +74,7 @@ def read_table(text: str, name: str, place: str, *, turns: bool = False) -> Time
             )
         rows.append(row)
         numbers.append(number)
+        before = moment
     if len(rows) < 2:
         raise TableError(f"{place}: a pass needs two rows or more. {FORM}")
     lasts_s = rows[-1][0] - rows[0][0]

@@ -118,6 +118,7 @@ APART = (
     "on the sky from the row before, and which way between them is not told: write rows nearer to each other, "
     "45° at most"
 )
+KINDS = "in the row before: write each t in seconds, or each in UTC"
 POINTS = "commas stand between values, and decimals have a point: 12.5,274.6,8.1"
 
 
@@ -137,6 +138,16 @@ POINTS = "commas stand between values, and decimals have a point: 12.5,274.6,8.1
             ":3: is less than 0.001 s after the row before: leave one of them out",
         ),
         ("t,az,el\n1,10,5\n\n0,11,6\n", ":4: t must rise from row to row: 0 comes after 1"),
+        (
+            "t,az,el\n2026-11-22T18:30:01Z,10,5\n2026-11-22T18:30:00Z,11,6\n",
+            ":3: t must rise from row to row: 2026-11-22T18:30:00Z comes after 2026-11-22T18:30:01Z",
+        ),
+        (
+            "t,az,el\n1795372201.5,10,5\n1795372200.5,11,6\n",
+            ":3: t must rise from row to row: 1795372200.5 comes after 1795372201.5",
+        ),
+        ("t,az,el\n2026-11-22T18:30:01Z,10,5\n60,11,6\n", f":3: t is 60, and 2026-11-22T18:30:01Z {KINDS}"),
+        ("t,az,el\n0,10,5\n20261122T183001Z,11,6\n", f":3: t is 20261122T183001Z, and 0 {KINDS}"),
         ("t,az,el\n0,10,5\n1,east,6\n", ":3: az is 'east': t, az and el must be numbers"),
         ("t,az,el\n0,10,5\n1,11\n", f":3: has 2 values, and the first line names 3: {POINTS}"),
         ("t,az,el\n0,5,274,6,8,1\n", f":2: has 6 values, and the first line names 3: {POINTS}"),
