@@ -153,7 +153,7 @@ class Silence:
             case Shows.ORDERED:
                 return ordered
             case Shows.ELSEWHERE:
-                return elsewhere
+                return elsewhere and truth.stands
             case Shows.DRIVEN:
                 return fed
             case Shows.PRESSED:

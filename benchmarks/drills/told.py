@@ -22,7 +22,7 @@ class Shows(Enum):
     ORDERED = auto()
     """Only while an order is in force: else the part is not used."""
     ELSEWHERE = auto()
-    """Only while an order certainly sends its axis to another angle."""
+    """Only while its axis stands, and an order certainly sends it to another angle."""
     DRIVEN = auto()
     """Only while the motor has current."""
     TURNED = auto()

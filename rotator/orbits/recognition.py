@@ -237,9 +237,8 @@ class _Listener:
             return None
         if not has_moved(told):
             # In whole degrees a satellite may stand for 15 s after its rise. Then only place and time identify it.
-            if standing_chance(path, orders, clocks_s, rounding) > self._known.standing_share(
-                likely=path.satellite.name in self._likely
-            ):
+            allowed = self._known.standing_share(likely=path.satellite.name in self._likely)
+            if standing_chance(path, orders, clocks_s, rounding) > allowed:
                 return None
         elif not has_told(path, told, rounding) or not self._is_no_chance(path, told, clocks_s, rounding):
             return None
