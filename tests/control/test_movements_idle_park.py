@@ -274,7 +274,10 @@ def play(desk: Any, script: list[tuple[Source, Order | str, float]]) -> None:
     # Whatever was before: a new order, and then nothing, lets it park.
     desk.step(Stop(), Release(), GiveBack(), SetMode(Mode.AUTO), by=CONSOLE)
     desk.step(Aim(200.0, 40.0), by=CONSOLE)
-    desk.run(60.0 + AFTER_S)
+    for _ in range(round(60.0 + AFTER_S)):
+        desk.run(1.0)
+        if parks(desk):
+            break
     if not desk.status.faults:
         assert parks(desk), "does not park"
 
