@@ -197,6 +197,8 @@ class Authority:
 
     def ignored(self, now_s: float) -> tuple[str, ...]:
         """A sentence for each source whose orders have had no effect lately: which source, why, and what ends that."""
+        if not self._ignored:
+            return ()
         lately = [(name, why) for name, (why, at_s) in self._ignored.items() if now_s - at_s < PAUSE_S]
         self._ignored = {name: self._ignored[name] for name, _ in lately}
         return tuple(f"orders from {name} are ignored: {why}" for name, why in reversed(lately[-MOST_SHOWN:]))

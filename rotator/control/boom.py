@@ -13,8 +13,10 @@ from rotator.exchange.status import AxisStatus
 
 def with_boom(mount: Mount, azimuth: AxisStatus, elevation: AxisStatus) -> tuple[AxisStatus, AxisStatus]:
     """The status of both axes, each with the correction that the mount needs."""
+    if mount.model.perfect:
+        return azimuth, elevation
     axis_deg, raised_deg = azimuth.shown_deg, elevation.shown_deg
-    if mount.model.perfect or axis_deg is None:
+    if axis_deg is None:
         return azimuth, elevation
     raised_deg = elevation.min_deg if raised_deg is None else raised_deg
     there_azimuth_deg, there_elevation_deg = mount.pointed(axis_deg, raised_deg)

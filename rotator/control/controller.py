@@ -6,9 +6,7 @@ orders, the movements that were ordered, and the fence. Pure: no I/O, no clock, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
 
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
@@ -22,7 +20,6 @@ from rotator.control.movements import Movements
 from rotator.control.pass_starts import PassStarts
 from rotator.control.refused import Refused
 from rotator.control.rights import deed_of
-from rotator.control.seen_turning import SeenTurning
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
 from rotator.exchange.faults import Notice
@@ -67,7 +64,6 @@ class Controller:
         self._movements = Movements(settings, axes)
         self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._starts = PassStarts()
-        self._turning = {axis: SeenTurning() for axis in Axis}
         self._cycles = Cycles(settings.period_s)
         self._speed_level = 4
         self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
@@ -86,13 +82,16 @@ class Controller:
         for axis, control in self._axes.items():
             if axis in readings:
                 control.see(readings[axis], now_s)
-                self._turning[axis].note(now_s, control.angle_deg)
         for source, order in orders:
-            with self._noting_refusals():
+            try:
                 self._take(source, order, now_s)
+            except Refused as reason:
+                self.troubles.append(str(reason))
         self._movements.end_what_faults_end()
-        with self._noting_refusals():
+        try:
             self._movements.go_on(now_s, may_park=self._authority.moves_by_itself)
+        except Refused as reason:
+            self.troubles.append(str(reason))
         self._movements.look_ahead(now_s)
         commands: dict[Axis, Command] = {}
         for axis, control in self._axes.items():
@@ -152,18 +151,7 @@ class Controller:
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         more = self._remarks[axis] + self._movements.notices(axis) + self._fence.notices(axis, now_s)
         starts = self._starts.of(axis) if self._axes[axis].has_relays else None
-        status = self._axes[axis].status(now_s, starts=starts, more=more)
-        if status.moving or status.drive is not Direction.OFF:
-            self._turning[axis].driven()
-        turns_dps = self._turning[axis].speed_dps(status.noise_deg) if status.seen else 0.0
-        return replace(status, by_itself_dps=turns_dps) if turns_dps else status
-
-    @contextmanager
-    def _noting_refusals(self) -> Iterator[None]:
-        try:
-            yield
-        except Refused as reason:
-            self.troubles.append(str(reason))
+        return self._axes[axis].status(now_s, starts=starts, more=more)
 
     def _take(self, source: Source, order: Order, now_s: float) -> None:
         """Raises Refused where the order cannot be carried out."""

@@ -41,8 +41,8 @@ class Fence:
     def passed(self, now_s: float, wishes: Mapping[Axis, Command]) -> dict[Axis, Command]:
         """These commands, shortened or stopped where a sector is in the way."""
         commands = dict(wishes)
-        moves = [axis for axis in Axis if _moves(commands[axis])]
-        if not self._sectors or not moves:
+        moves = [axis for axis in Axis if _moves(commands[axis])] if self._sectors else []
+        if not moves:
             return commands
         here = Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))
         if self._attended and here == Box(UNKNOWN, UNKNOWN):

@@ -31,9 +31,14 @@ class IdlePark:
         """The order has ended early: by a stop, a fault, a lost link, or because the antenna parks."""
         self._busy_s, self._carries_out = None, False
 
+    @property
+    def counts(self) -> bool:
+        """Whether an idle time is set, and an order has come since the last end."""
+        return self._after_s > 0 and self._busy_s is not None
+
     def due(self, now_s: float, *, busy: bool) -> bool:
         """Asked once a cycle: whether to park now. `busy`: an axis turns, or waits and will turn on by itself."""
-        if self._after_s <= 0 or self._busy_s is None:
+        if self._busy_s is None or not self.counts:
             return False
         if busy:
             # Also after a late cycle: an antenna that was busy with the order, and still is, has not finished it.

@@ -145,7 +145,7 @@ class Movements:
             self._homing.begin()
         if not may_park:
             self._idle.ended()
-        elif self._idle.due(now_s, busy=self._busy(now_s)):
+        elif self._idle.counts and self._idle.due(now_s, busy=self._busy(now_s)):
             self.park()
 
     def _busy(self, now_s: float) -> bool:

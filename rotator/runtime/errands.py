@@ -37,6 +37,8 @@ class Errands:
 
     def notices(self, now_s: float) -> tuple[str, ...]:
         """What has failed lately, for the status."""
+        if not self._failed:
+            return ()
         self._failed = {name: failed for name, failed in self._failed.items() if now_s - failed[0] < SAID_S}
         return tuple(f"{name}: {why}" for name, (_, why) in self._failed.items())
 

@@ -20,6 +20,7 @@ log = logging.getLogger(__name__)
 class Journal:
     def __init__(self, clock: Callable[[], float]) -> None:
         self._failures: dict[str, str] = {}
+        """Of the devices that fail now."""
         self._noticed: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         self._movers = LogLimit(clock)
         self._orders = LogLimit(clock)
@@ -28,28 +29,30 @@ class Journal:
         """Note the present failure of a device; empty: it works."""
         if failure == self._failures.get(device, ""):
             return
-        self._failures[device] = failure
         if failure:
+            self._failures[device] = failure
             log.error("%s: %s", device, failure)
         else:
+            del self._failures[device]
             log.warning("%s: answers again", device)
 
     def any_fails(self, devices: Iterable[str]) -> bool:
         """Whether one of these devices failed when it was last used."""
-        return any(self._failures.get(device) for device in devices)
+        return not self._failures.keys().isdisjoint(devices)
 
     def changed(self, before: Status, now: Status) -> None:
         """Log what is new in a status."""
-        for fault in now.faults:
-            if fault not in before.faults:
+        faults, faults_before = now.faults, before.faults
+        for fault in faults:
+            if fault not in faults_before:
                 log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
         mover = now.controlled_by
-        place = f", from {now.controlled_from}," if now.controlled_from else ""
-        moves = f"{mover}{place} moves the antenna"
-        if mover and mover != before.controlled_by and (text := self._movers.admit(moves)):
-            log.info("%s", text)
-        if before.faults and not now.faults:
-            passed = all(fault.passing for fault in before.faults)
+        if mover and mover != before.controlled_by:
+            place = f", from {now.controlled_from}," if now.controlled_from else ""
+            if text := self._movers.admit(f"{mover}{place} moves the antenna"):
+                log.info("%s", text)
+        if faults_before and not faults:
+            passed = all(fault.passing for fault in faults_before)
             log.warning("no fault any more" if passed else "faults acknowledged")
         self._notices(now)
         for notice in now.notices:
@@ -59,8 +62,9 @@ class Journal:
             log.warning(held_by(now.latched, storm=now.storm) if now.latched else "released")
 
     def _notices(self, now: Status) -> None:
-        for axis in Axis:
-            for notice in now.axis(axis).notices:
-                if notice not in self._noticed[axis]:
+        for axis, noticed in self._noticed.items():
+            notices = now.axis(axis).notices
+            for notice in notices:
+                if notice not in noticed:
                     log.warning("%s: %s", axis.value, notice)
-            self._noticed[axis] = now.axis(axis).notices
+            self._noticed[axis] = notices

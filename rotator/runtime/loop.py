@@ -84,6 +84,7 @@ class ControlLoop:
         self._supply_cut = self._links_lost = self._page_lost = False
         self.status: Status = controller.status(clock())
         """The latest status. Each step replaces it whole; a status never changes."""
+        self._tries = _tries(self.status)
 
     def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
         """Hand over an order. It takes effect at once, not in the next cycle. May be called from any thread.
@@ -138,7 +139,8 @@ class ControlLoop:
             self.status = replace(self.status, notices=self.status.notices + more)
         if self.status.latch != before.latch:
             self._keep_latch(self.status.latch)
-        if (tries := _tries(self.status)) != _tries(before):
+        if (tries := _tries(self.status)) != self._tries:
+            self._tries = tries
             self._keep_tries(tries)
         self._switch_supply()
         self._log(before)
@@ -250,4 +252,4 @@ class ControlLoop:
 
 
 def _tries(status: Status) -> dict[Axis, Tries]:
-    return {axis: status.axis(axis).tries for axis in Axis}
+    return {Axis.AZIMUTH: status.azimuth.tries, Axis.ELEVATION: status.elevation.tries}

@@ -13,6 +13,8 @@ from rotator.control.axis.readings import Reading
 from rotator.rotors.port import Rotor
 from rotator.runtime.journal import Journal
 
+NAMES = {axis: axis.value for axis in Axis}
+"""What the journal calls the sensor of each axis."""
 SENSORS_THREAD = "sensors"
 """The name of the thread."""
 JOIN_S = 1.0
@@ -90,7 +92,7 @@ class SensorThread:
         try:
             raw = sensor.read()
         except HardwareError as fault:
-            self._journal.note(axis.value, str(fault))
+            self._journal.note(NAMES[axis], str(fault))
             return Reading(self._clock(), None, str(fault), self._rotor.condition(axis))
-        self._journal.note(axis.value, "")
+        self._journal.note(NAMES[axis], "")
         return Reading(self._clock(), raw, condition=self._rotor.condition(axis))

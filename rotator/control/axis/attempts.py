@@ -43,12 +43,16 @@ class Attempts:
     def notices(self) -> tuple[Notice, ...]:
         return self._stops.notices
 
-    def tries(self, now_s: float) -> Tries:
-        """What the next run of the program has to know."""
+    @property
+    def in_vain(self) -> bool:
+        """Whether the present run, or one before it, has not been seen to move the axis, and no fault counts it."""
+        return self.fault is None and self._short_runs.in_vain
+
+    def tries(self, now_s: float, *, pressed: bool = False, driven: bool = False) -> Tries:
+        """What the next run of the program has to know. `pressed`, `driven`: those of `Tries`."""
         faults = self._faults.tries(now_s)
-        in_vain = self.fault is None and self._short_runs.in_vain
         kind = self._faults.kind if faults else None
-        return Tries(faults, kind, self._stops.stood_deg, self._stops.stops_deg, driven=in_vain)
+        return Tries(faults, kind, self._stops.stood_deg, self._stops.stops_deg, pressed, driven)
 
     def note_relays(self, relays: RelayState, speed_dps: float) -> None:
         """The relays have changed. `speed_dps`: of the motor that runs now; 0: none runs."""

@@ -11,11 +11,13 @@ from typing import Generic, TypeVar
 from hw.ports import Direction
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog
-from rotator.control.axis.readings import NORMAL
+from rotator.control.axis.readings import NORMAL, Reading
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import AxisSettings
+from rotator.control.seen_turning import SeenTurning
 from rotator.control.sky.goal import AimGoal
 from rotator.exchange.faults import Fault, Missing, Notice
+from rotator.exchange.motor import ALL_OPEN, LearntMotor, Tries, Trusts
 from rotator.exchange.status import AxisStatus
 
 Settings = TypeVar("Settings", bound=AxisSettings)
@@ -31,6 +33,7 @@ class AxisBase(ABC, Generic[Settings]):
         self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition = NORMAL
         """What the rotor reported with the latest reading."""
+        self._seen_turning = SeenTurning()
 
     @property
     @abstractmethod
@@ -99,27 +102,53 @@ class AxisBase(ABC, Generic[Settings]):
     def confirmed(self) -> None:
         self._sensing.begin_anew(self._sensing.calibration)
 
+    def _sense(self, reading: Reading, now_s: float, noise_deg: float) -> Fault | None:
+        """Take the latest reading. Returns the fault of the sensor that it shows, if any."""
+        self._condition = reading.condition
+        unbelievable = self._sensing.take(reading, now_s, noise_deg)
+        self._seen_turning.note(now_s, self._sensing.angle_deg)
+        return unbelievable
+
     def _status(
-        self, now_s: float, starts: int | None, *, drive: Direction, noise_deg: float, notices: tuple[Notice, ...]
+        self,
+        now_s: float,
+        starts: int | None,
+        *,
+        drive: Direction,
+        noise_deg: float,
+        notices: tuple[Notice, ...],
+        tries: Tries,
+        calibration: tuple[tuple[float, float], ...] | None = None,
+        learnt: tuple[LearntMotor, LearntMotor] | None = None,
+        trusts: Trusts = ALL_OPEN,
+        waiting: bool = False,
     ) -> AxisStatus:
-        """The status of the axis, without the fields that only an axis with relays has."""
+        """The status of the axis. The defaults are those of a drive without relays."""
+        sensing, limits, aiming = self._sensing, self._settings.limits, self.aiming
+        seen = now_s <= sensing.ridden_until_s
         return AxisStatus(
-            min_deg=self._settings.limits.min_deg,
-            max_deg=self._settings.limits.max_deg,
-            angle_deg=self._sensing.angle_deg,
-            seen=now_s <= self._sensing.ridden_until_s,
-            raw=self._sensing.raw,
+            min_deg=limits.min_deg,
+            max_deg=limits.max_deg,
+            angle_deg=sensing.angle_deg,
+            seen=seen,
+            raw=sensing.raw,
             source=self._settings.source,
-            target_deg=self.aiming.target_deg if self.aiming else None,
-            tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
+            target_deg=aiming.target_deg if aiming else None,
+            tolerance_deg=aiming.tolerance_deg if aiming else None,
             drive=drive,
             moving=self.moving(now_s),
+            by_itself_dps=self._seen_turning.speed_dps(noise_deg) if seen else 0.0,
             starts=starts,
             missing=self.missing,
             lost=self._condition.lost,
             confirmable=self.confirmable,
+            calibration=calibration,
             fault=self.fault,
             homing=self.homing,
             notices=notices,
             noise_deg=noise_deg,
+            learnt=learnt,
+            trusts=trusts,
+            tries=tries,
+            waiting=waiting,
         )

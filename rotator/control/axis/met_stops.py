@@ -30,6 +30,7 @@ class MetStops:
         self._stops: Mapping[Direction, float] = {}
         self.limits = limits
         """How far the axis may turn now."""
+        self.notices: tuple[Notice, ...] = ()
         self._keep(_by_way(before.stops_deg))
 
     def stood_still(self, kind: FaultKind, direction: Direction, angle_deg: float) -> None:
@@ -52,17 +53,6 @@ class MetStops:
     def stops_deg(self) -> Places:
         return self._stops.get(Direction.PLUS), self._stops.get(Direction.MINUS)
 
-    @property
-    def notices(self) -> tuple[Notice, ...]:
-        return tuple(
-            Notice(
-                f"it stopped at {angle_deg:.0f}° while its motor ran {WAYS[self._axis, direction]}: "
-                "it goes there again only after `resume`",
-                "STOP MET",
-            )
-            for direction, angle_deg in self._stops.items()
-        )
-
     def _keep(self, stops: Mapping[Direction, float]) -> None:
         self._stops = stops
         low_deg, high_deg = self._limits.min_deg, self._limits.max_deg
@@ -71,6 +61,14 @@ class MetStops:
         if Direction.MINUS in stops:
             low_deg = min(high_deg, max(low_deg, stops[Direction.MINUS] + KEPT_OFF_DEG))
         self.limits = Range(low_deg, high_deg)
+        self.notices = tuple(
+            Notice(
+                f"it stopped at {angle_deg:.0f}° while its motor ran {WAYS[self._axis, direction]}: "
+                "it goes there again only after `resume`",
+                "STOP MET",
+            )
+            for direction, angle_deg in stops.items()
+        )
 
 
 def _by_way(places_deg: Places) -> Mapping[Direction, float]:

@@ -82,9 +82,14 @@ class Motion:
     def resting(self) -> bool:
         return self._run is None and self._landing is None
 
+    @property
+    def direction(self) -> Direction:
+        """Of the present run; OFF: there is none."""
+        return self._run.direction if self._run else Direction.OFF
+
     def note_drive(self, now_s: float, direction: Direction, wanted_deg: float) -> None:
         """From now on the relays drive that way. OFF: the run is to come to rest at `wanted_deg`."""
-        if self.angle_deg is None or direction is (self._run.direction if self._run else Direction.OFF):
+        if self.angle_deg is None or direction is self.direction:
             return
         self._advance(now_s)
         run, self._run = self._run, None

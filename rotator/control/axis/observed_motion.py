@@ -54,11 +54,18 @@ class ObservedMotion:
 
     def see(self, at_s: float, angle_deg: float) -> bool:
         """A good reading. Returns whether it lies on the line of the others."""
-        return self.trend.see(at_s, angle_deg, max(motor.speed_dps for motor in self.motors.values()))
+        plus, minus = self.motors.values()
+        return self.trend.see(at_s, angle_deg, max(plus.speed_dps, minus.speed_dps))
 
     def show(self, speed_dps: float) -> None:
         """The axis turns that fast for certain."""
         self.shown_dps = max(self.shown_dps or SLOWEST_DPS, speed_dps)
+
+    @property
+    def believed_dps(self) -> float:
+        """The speed of the slower direction, as its motor is known."""
+        plus, minus = self.motors.values()
+        return min(plus.speed_dps, minus.speed_dps)
 
     @property
     def reference_dps(self) -> float:

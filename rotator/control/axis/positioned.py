@@ -87,9 +87,8 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         raise Refused(f"{self._settings.axis.value} has no relays: there is nothing to look at")
 
     def see(self, reading: Reading, now_s: float) -> None:
-        self._condition = reading.condition
         self._seen_s = now_s
-        unbelievable = self._sensing.take(reading, now_s, self._readings.noise_deg)
+        unbelievable = self._sense(reading, now_s, self._readings.noise_deg)
         for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
             self._readings.see(at_s, angle_deg, self._settings.speed_dps)
             self._pace.see(at_s, angle_deg)
@@ -211,15 +210,17 @@ class PositionedAxis(AxisBase[PositionedSettings]):
             self._goal = replace(self._goal, end_deg=command.angle_deg)
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
-        """There are no relays to be noted."""
+        if self.driven:
+            self._seen_turning.driven()
 
     def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
         notices = (*(each for each in (self._condition.notice, self._sensing.notice) if each), *more)
-        status = self._status(now_s, starts, drive=self._drive, noise_deg=self._readings.noise_deg, notices=notices)
         faults = self._faults.tries(now_s)
         measured = self._settings.source is AngleSource.MEASURED
         in_vain = measured and self.fault is None and self._stray.in_vain
-        return replace(status, tries=Tries(faults, self._faults.kind if faults else None, driven=in_vain))
+        tries = Tries(faults, self._faults.kind if faults else None, driven=in_vain)
+        noise_deg = self._readings.noise_deg
+        return self._status(now_s, starts, drive=self._drive, noise_deg=noise_deg, notices=notices, tries=tries)
 
     @property
     def _drive(self) -> Direction:

@@ -6,7 +6,7 @@ Knows directions and moments. Does not know whether a relay has really opened: `
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from hw.ports import Direction
 
@@ -26,10 +26,11 @@ class RelayState:
     begun_s: float = -math.inf
     """When that run began. A blink of its relay does not end a run."""
 
-    @property
-    def closed(self) -> bool:
-        """Whether one of them is closed."""
-        return self.direction is not Direction.OFF
+    closed: bool = field(init=False, repr=False, compare=False)
+    """Whether one of them is closed."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "closed", self.direction is not Direction.OFF)
 
     def off_for_s(self, now_s: float) -> float:
         """For how long both have been open; 0 while one is closed."""

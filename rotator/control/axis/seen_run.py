@@ -65,13 +65,15 @@ class SeenRun:
     @property
     def motor_dps(self) -> float:
         """The measured speed; before the first measurement, the believed one."""
-        return self.measured_dps or min(motor.speed_dps for motor in self._seen.motors.values())
+        return self.measured_dps or self._seen.believed_dps
 
     @property
     def powered_dps(self) -> float:
         """The least speed of a powered motor."""
         measured_dps = self.measured_dps
-        return POWERED_BELIEVED_SHARE * self.motor_dps if measured_dps is None else POWERED_SHARE * measured_dps
+        if measured_dps is None:
+            return POWERED_BELIEVED_SHARE * self._seen.believed_dps
+        return POWERED_SHARE * measured_dps
 
     @property
     def unseen_s(self) -> float:

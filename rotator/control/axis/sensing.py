@@ -100,8 +100,9 @@ class Sensing:
         missed, self._missed = reading.condition.missed > self._missed, reading.condition.missed
         self._seen_s = max(self._seen_s, reading.at_s)
         self.places = ()
-        jumping = self._jumping(reading, new=new)
-        problem = self._problem(reading, now_s) or self._spark(reading, noise_deg, new=new)
+        angle_deg = self._degrees(reading.raw) if new and reading.raw is not None else None
+        jumping = self._jumping(reading.at_s, angle_deg)
+        problem = self._problem(reading, now_s) or self._spark(reading, angle_deg, noise_deg)
         self.believable = problem is None
         if problem is None:
             self.believed_s, self._bad_since_s, self._loose = reading.at_s, None, None
@@ -130,11 +131,10 @@ class Sensing:
             return Fault(FaultKind.POT_OPEN, self._axis, f"reads {reading.raw:.3f}", f"{low:g} to {high:g}")
         return None
 
-    def _spark(self, reading: Reading, noise_deg: float, *, new: bool) -> Fault | None:
+    def _spark(self, reading: Reading, angle_deg: float | None, noise_deg: float) -> Fault | None:
         """A plausible reading: is it the place of the axis? If so, it counts from now on."""
-        if not new or reading.raw is None:
+        if angle_deg is None:
             return self._off_line
-        angle_deg = self._degrees(reading.raw)
         places = self._sparks.believe(reading.at_s, angle_deg, noise_deg)
         if not places:
             measured = f"from {self._degrees(self.raw or 0.0):.0f}° to {angle_deg:.0f}° in a moment"
@@ -165,19 +165,19 @@ class Sensing:
         )
 
     def _degrees(self, raw: float) -> float:
+        raw = raw if math.isfinite(raw) else -1.0
         return self.calibration.degrees(raw) if self.calibration else raw * UNCALIBRATED_SPAN_DEG
 
-    def _jumping(self, reading: Reading, *, new: bool) -> Fault | None:
-        """Out, back, and out again: no motor does that, even where each reading is plausible."""
-        if not new or reading.raw is None:
+    def _jumping(self, at_s: float, angle_deg: float | None) -> Fault | None:
+        """Out, back, and out again: no motor does that, even where each reading is plausible. None: no new reading."""
+        if angle_deg is None:
             return self._jumped
-        angle_deg = self._degrees(reading.raw if math.isfinite(reading.raw) else -1.0)
-        if self._last is not None and reading.at_s - self._last[0] <= JUMPS_WITHIN_S:
+        if self._last is not None and at_s - self._last[0] <= JUMPS_WITHIN_S:
             jump_deg = angle_deg - self._last[1]
             if abs(jump_deg) > JUMP_DEG:
-                self._jumps.append((reading.at_s, jump_deg))
-        self._last, self._jumped = (reading.at_s, angle_deg), None
-        if len(self._jumps) < JUMPS or reading.at_s - self._jumps[0][0] > JUMPS_WITHIN_S:
+                self._jumps.append((at_s, jump_deg))
+        self._last, self._jumped = (at_s, angle_deg), None
+        if len(self._jumps) < JUMPS or at_s - self._jumps[0][0] > JUMPS_WITHIN_S:
             return None
         sizes_deg = [jump_deg for _, jump_deg in self._jumps]
         if abs(sum(sizes_deg)) == sum(map(abs, sizes_deg)):

@@ -49,6 +49,8 @@ class RestPlace:
         """Since when it stands there."""
         self._readings: deque[float] = deque(maxlen=KEPT_READINGS)
         """The latest readings since all relays opened."""
+        self._rest: Rest
+        """By those readings, when it was last found to stand."""
         self._start: Rest | None = None
         """Where it was before the first run that was not seen to turn it; None: the latest run was seen to."""
         self._at_start = False
@@ -81,7 +83,7 @@ class RestPlace:
             self.since_s = at_s
             while len(self._readings) > LANDED_READINGS:
                 self._readings.popleft()
-        rest = self._rest
+        rest = self._rest = Rest(sum(self._readings) / len(self._readings), len(self._readings))
         drift_deg = 0.0 if self.at_deg is None else rest.mean_deg - self.at_deg
         self.at_deg = rest.mean_deg
         if self._start is not None:
@@ -100,10 +102,6 @@ class RestPlace:
             self._start, self._at_start = rest, True
             return start.mean_deg
         return None
-
-    @property
-    def _rest(self) -> Rest:
-        return Rest(sum(self._readings) / len(self._readings), len(self._readings))
 
 
 class Obstacles:

@@ -7,7 +7,6 @@ who gave the order.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.axis_base import AxisBase
@@ -55,6 +54,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         self._relays = RelayState()
         self._scale: int | None = None
         """The scale of the latest reading; None: there was no reading yet."""
+        self._blind = BLIND if settings.window.blind else None
         self._decided_s: float | None = None
         """When it decided last. An order makes it decide again between two cycles."""
 
@@ -100,11 +100,10 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         self._goal = HomeGoal(Homing(self._settings.homing))
 
     def see(self, reading: Reading, now_s: float) -> None:
-        self._condition = reading.condition
         scale, self._scale = self._scale, reading.condition.scale
         if scale is not None and scale != self._scale:
             self._begin_anew(self._sensing.calibration)
-        unbelievable = self._sensing.take(reading, now_s, self._gate.noise_deg)
+        unbelievable = self._sense(reading, now_s, self._gate.noise_deg)
         if self._sensing.calibration is not None:
             for at_s, angle_deg in self._sensing.places:
                 self._law.see(at_s, angle_deg)
@@ -138,7 +137,8 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
 
     def _safe(self, run: Run, now_s: float, past_s: float) -> Run | Feed:
         """The run, as far as it is permitted. `past_s`: since the cycle before."""
-        angle_deg = None if self.missing or self.homing else self._sensing.angle_deg
+        unbounded = run.direction is Direction.OFF or self.missing or self.homing
+        angle_deg = None if unbounded else self._sensing.angle_deg
         ends = () if angle_deg is None else at_ends(angle_deg, self._faults.limits)
         permitted = self._permit.permitted(run, now_s, past_s, ends=ends, switches=self._condition.ends)
         if isinstance(permitted, Fault):
@@ -235,25 +235,29 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         was, self._relays = self._relays, self._relays.changed(now_s, driven)
         self._law.note_relays(now_s, self._relays)
         self._permit.note_relays(now_s, self._relays)
+        if self.moving(now_s):
+            self._seen_turning.driven()
         if self._relays != was:
             self._faults.note_relays(self._relays, self._law.motion.motors[driven].speed_dps if driven else 0.0)
 
     def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
         calibration = self._sensing.calibration
-        drive, notices = self._relays.direction, self._notices(now_s) + more
-        return replace(
-            self._status(now_s, starts, drive=drive, noise_deg=self._gate.noise_deg, notices=notices),
+        return self._status(
+            now_s,
+            starts,
+            drive=self._relays.direction,
+            noise_deg=self._gate.noise_deg,
+            notices=self._notices(now_s) + more,
+            tries=self._faults.tries(now_s),
             calibration=calibration.points if calibration else None,
             learnt=self._law.learnt,
             trusts=self._gate.trusts,
-            tries=self._faults.tries(now_s),
             waiting=self._gate.waiting,
         )
 
     def _notices(self, now_s: float) -> tuple[Notice, ...]:
-        blind = BLIND if self._settings.window.blind else None
         vain = IN_VAIN if self.pressed_in_vain else None
-        more = (self._condition.notice, self._sensing.notice, self._permit.notice, vain, blind)
+        more = (self._condition.notice, self._sensing.notice, self._permit.notice, vain, self._blind)
         return (*self._faults.notices(now_s), *(notice for notice in more if notice is not None))
 
     @property

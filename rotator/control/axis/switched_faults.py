@@ -5,8 +5,6 @@ Knows the watches that find faults, and the latch that keeps one. Does not stop 
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from rotator.control.axis.attempts import Attempts
 from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import RelayGate
@@ -120,16 +118,15 @@ class SwitchedFaults:
 
     def tries(self, now_s: float) -> Tries:
         """What the next run of the program has to know."""
-        tries = self._attempts.tries(now_s)
         if self._counts:
-            return replace(tries, driven=self._silent and self.fault is None)
-        pressed = self._vain.enough and not self._calibrated
-        if not tries.driven and not pressed:
-            return tries
-        return replace(tries, driven=tries.driven and self._calibrated, pressed=pressed)
+            return self._attempts.tries(now_s, driven=self._silent and self.fault is None)
+        if self._calibrated:
+            return self._attempts.tries(now_s, driven=self._attempts.in_vain)
+        return self._attempts.tries(now_s, pressed=self._vain.enough)
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
         """What a person should know of its motion though it stops nothing."""
-        explained = self.fault is not None and self.fault.kind in WHY_IT_TURNS
-        gate = (notice for notice in self._gate.notices(now_s) if not (explained and notice == TURNS))
-        return (*gate, *self._attempts.notices)
+        fault, notices = self.fault, self._gate.notices(now_s)
+        if fault is not None and fault.kind in WHY_IT_TURNS:
+            notices = tuple(notice for notice in notices if notice != TURNS)
+        return notices + self._attempts.notices

@@ -77,8 +77,9 @@ class SwitchedLaw:
             self._taught = dict(self.motion.motors)
         self._relays = relays
         self._note_stop(now_s)
-        wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
-        self.motion.note_drive(now_s, relays.direction, wanted_deg)
+        if relays.direction is not self.motion.direction:
+            wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
+            self.motion.note_drive(now_s, relays.direction, wanted_deg)
 
     @property
     def learnt(self) -> tuple[LearntMotor, LearntMotor]:

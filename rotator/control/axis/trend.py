@@ -82,10 +82,12 @@ class Trend:
         if elsewhere:
             self._kept.clear()
         self._kept.append((at_s, angle_deg))
-        if self._lone(fastest_dps):
-            del self._kept[-2]
-        else:
-            self._note_noise()
+        if len(self._kept) >= LEAST_READINGS:
+            before, middle, after = self._kept[-3], self._kept[-2], self._kept[-1]
+            if self._lone(before, middle, after, fastest_dps):
+                del self._kept[-2]
+            else:
+                self._note_noise(before, middle, after)
         while at_s - self._kept[0][0] > KEPT_S:
             self._kept.popleft()
         return True
@@ -121,21 +123,19 @@ class Trend:
             gap_s = (self.last_s - self.since_s) / (len(self._kept) - 1)
         return float((self.noise_deg * math.sqrt(12.0 * gap_s) / error_dps) ** (2.0 / 3.0))
 
-    def _lone(self, fastest_dps: float) -> bool:
+    def _lone(self, before: SeenAt, middle: SeenAt, after: SeenAt, fastest_dps: float) -> bool:
         """Whether the reading before the latest one lies apart from both its neighbours, on one side."""
-        if len(self._kept) < LEAST_READINGS or len(self._first) < _FIRST_READINGS:
+        if len(self._first) < _FIRST_READINGS:
             return False
-        (before_s, before_deg), (_, angle_deg), (after_s, after_deg) = (self._kept[place] for place in (-3, -2, -1))
+        (before_s, before_deg), (_, angle_deg), (after_s, after_deg) = before, middle, after
         out_deg, back_deg = angle_deg - before_deg, angle_deg - after_deg
         least_deg = max(LONE_DEG, LONE_NOISES * self.noise_deg) + fastest_dps * (after_s - before_s)
         return out_deg * back_deg > 0.0 and min(abs(out_deg), abs(back_deg)) > least_deg
 
-    def _note_noise(self) -> None:
+    def _note_noise(self, before: SeenAt, middle: SeenAt, after: SeenAt) -> None:
         """Follow the median of how far a reading is off the line through its neighbours: starting motors hardly change
         it."""
-        if len(self._kept) < LEAST_READINGS:
-            return
-        (before_s, before_deg), (at_s, angle_deg), (after_s, after_deg) = (self._kept[place] for place in (-3, -2, -1))
+        (before_s, before_deg), (at_s, angle_deg), (after_s, after_deg) = before, middle, after
         share = (at_s - before_s) / (after_s - before_s)
         off_deg = abs(angle_deg - before_deg - share * (after_deg - before_deg))
         scatter = math.sqrt(1.0 + share**2 + (1.0 - share) ** 2)

@@ -117,7 +117,7 @@ class WeldWatch:
 
     @property
     def _motor_dps(self) -> float:
-        believed_dps = min(motor.speed_dps for motor in self._seen.motors.values())
+        believed_dps = self._seen.believed_dps
         return min(believed_dps, self._opening.measured_dps or believed_dps)
 
     @property
