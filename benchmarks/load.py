@@ -14,13 +14,14 @@ import tempfile
 import threading
 import time
 from collections.abc import Mapping
+from itertools import cycle
 from pathlib import Path
 
 from benchmarks.stops import free_port
 from hw.ports import AngleSensor, AngleSource, Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.config.load import parse
-from rotator.control.axis.readings import Condition
+from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.commands import Command, Errand
 from rotator.rotors.common import PlainRotor
 from rotator.rotors.port import AddAlarm
@@ -55,7 +56,7 @@ class _Rotor(PlainRotor):
         self.sensors: Mapping[Axis, AngleSensor] = {axis: _Sensor() for axis in Axis}
 
     def condition(self, _axis: Axis) -> Condition:
-        return Condition()
+        return NORMAL
 
     def obey(self, _axis: Axis, _command: Command) -> Direction:
         return Direction.OFF
@@ -75,10 +76,12 @@ class _Sensor:
     source: AngleSource = AngleSource.MEASURED
 
     def __init__(self) -> None:
-        self._chance = random.Random(1)
+        chance = random.Random(1)
+        # Drawn beforehand: chance takes time of its own.
+        self._readings = cycle([0.5 + chance.gauss(0.0, 0.0002) for _ in range(1000)])
 
     def read(self) -> float:
-        return 0.5 + self._chance.gauss(0.0, 0.0002)
+        return next(self._readings)
 
 
 def load_without_chips() -> float:

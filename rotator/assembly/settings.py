@@ -14,7 +14,6 @@ from rotator.config.forbidden import ForbiddenTable
 from rotator.config.model import Config
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import ANYTHING, Window
 from rotator.control.axis.settings import NEAR_DEG, AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.controller import Controller
@@ -24,7 +23,7 @@ from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.control.sky.pointing_model import PointingModel
 from rotator.exchange.faults import Missing
-from rotator.exchange.motor import ALL_OPEN, NO_TRIES, LearntMotor, Tries, Trusts
+from rotator.exchange.motor import ALL_OPEN, NO_TRIES, Motor, Tries, Trusts
 from rotator.exchange.orders import Mode
 from rotator.exchange.status import Latch
 from rotator.store.learnt import Motors
@@ -158,17 +157,13 @@ def axis_settings(
         longest_run_s=table.longest_run_s,
         rest_s=table.rest_s,
         master=config.relays.master is not None,
-        learnt=learnt and (_motor(learnt[0]), _motor(learnt[1])),
+        learnt=learnt,
         homing=homing(config, axis, shift),
         trusts=trusts,
         tries=tries,
         look=True,
         attended=attended,
     )
-
-
-def _motor(learnt: LearntMotor) -> Motor:
-    return Motor(learnt.speed_dps, learnt.coast_deg)
 
 
 EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)

@@ -123,18 +123,20 @@ class Controller:
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""
-        azimuth, elevation = with_boom(self._settings.mount, *(self._axis_status(axis, now_s) for axis in Axis))
+        axes = self._axis_status(Axis.AZIMUTH, now_s), self._axis_status(Axis.ELEVATION, now_s)
+        azimuth, elevation = with_boom(self._settings.mount, *axes)
         movements, authority = self._movements, self._authority
+        wanted, by = movements.wanted, authority.controlled_by
         return Status(
             at_s=now_s,
             azimuth=azimuth,
             elevation=elevation,
-            wanted_azimuth_deg=movements.wanted.azimuth_deg,
-            wanted_elevation_deg=movements.wanted.elevation_deg,
+            wanted_azimuth_deg=wanted.azimuth_deg,
+            wanted_elevation_deg=wanted.elevation_deg,
             latched=authority.latched,
             storm=authority.storm,
-            controlled_by=str(authority.controlled_by or ""),
-            controlled_from=authority.controlled_by.host if authority.controlled_by else "",
+            controlled_by=str(by or ""),
+            controlled_from=by.host if by else "",
             held_by=str(authority.held_by or ""),
             timed_point=movements.timed.point,
             timed_points=len(movements.timed.points),

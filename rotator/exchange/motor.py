@@ -12,12 +12,17 @@ from rotator.exchange.faults import FaultKind
 
 
 @dataclass(frozen=True, slots=True)
-class LearntMotor:
-    """One direction of a motor, as measured by the box."""
+class Motor:
+    """One direction of a motor, as described in the configuration or as measured by the box."""
 
     speed_dps: float
     coast_deg: float
     """The coast after a switch-off at full speed."""
+
+    @property
+    def lag_s(self) -> float:
+        """The time in which it gathers most of its speed, or loses it."""
+        return max(self.coast_deg / self.speed_dps, 1e-3)
 
 
 class Trust(Enum):

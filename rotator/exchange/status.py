@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from hw.ports import AngleSource, Axis, Direction
 from rotator.exchange.faults import Fault, Missing, Notice
-from rotator.exchange.motor import ALL_OPEN, NO_TRIES, LearntMotor, Tries, Trust, Trusts
+from rotator.exchange.motor import ALL_OPEN, NO_TRIES, Motor, Tries, Trust, Trusts
 from rotator.exchange.orders import Mode
 
 AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
@@ -57,7 +57,7 @@ class AxisStatus:
     """Remarks about this axis for a person. They stop nothing."""
     noise_deg: float = 0.1
     """Scatter of the readings, rms, since the start."""
-    learnt: tuple[LearntMotor, LearntMotor] | None = None
+    learnt: tuple[Motor, Motor] | None = None
     """The measured motor, first clockwise or up, then the other direction; None: the drive has nothing to learn."""
     trusts: Trusts = ALL_OPEN
     """The trust in its two relays."""

@@ -46,6 +46,8 @@ class Inbox:
 
     def take(self) -> list[tuple[Source, Order]]:
         """All orders, oldest first; the inbox is empty then."""
+        if not self._posted:
+            return []
         with self._lock:
             posted, self._posted = self._posted, []
         return [(each.source, each.order) for each in posted]

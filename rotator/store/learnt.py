@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.exchange.motor import LearntMotor
+from rotator.exchange.motor import Motor
 from rotator.store import json_file
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, damage, number
@@ -29,7 +29,7 @@ SLOWEST, FASTEST = 0.1, 4.0
 """Possible speeds of a motor, as multiples of the configured speed. Others are damaged, or of another motor."""
 LONGEST_COAST_S = 5.0
 
-Motors = tuple[LearntMotor, LearntMotor]
+Motors = tuple[Motor, Motor]
 """The two directions of one motor: clockwise or up, then counter-clockwise or down."""
 MotorSettings = Mapping[str, object]
 """The settings of a motor in the configuration, `speed_dps` among them. Figures of other settings are not used."""
@@ -104,9 +104,9 @@ def _motors(table: Mapping[str, Any], settings: MotorSettings) -> Motors:
     return plus, minus
 
 
-def _motor(figures: Mapping[str, Any], configured_dps: float) -> LearntMotor:
+def _motor(figures: Mapping[str, Any], configured_dps: float) -> Motor:
     speed_dps = number(figures["speed_dps"], "a speed in °/s", SLOWEST * configured_dps, FASTEST * configured_dps)
-    return LearntMotor(speed_dps, number(figures["coast_deg"], "a coast in °", 0.0, LONGEST_COAST_S * speed_dps))
+    return Motor(speed_dps, number(figures["coast_deg"], "a coast in °", 0.0, LONGEST_COAST_S * speed_dps))
 
 
 def _differs(old: Motors, new: Motors, *, ending: bool) -> bool:

@@ -11,7 +11,6 @@ import pytest
 from hw.ports import AngleSource, Axis, Direction
 from rotator.control.axis.calibration_table import Calibration, between_ends
 from rotator.control.axis.homing import HomingSettings
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import ANYTHING, Condition, Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
@@ -19,6 +18,7 @@ from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.exchange.faults import Missing
+from rotator.exchange.motor import Motor
 from rotator.exchange.orders import Order
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status

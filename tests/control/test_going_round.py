@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.reach import bounds
 from rotator.control.sky.mount import Range, Sector
+from rotator.exchange.motor import Motor
 from rotator.exchange.orders import Aim, Park, Release, Stop
 from tests.search import some
 

@@ -16,7 +16,7 @@ from rotator.assembly.kept_files import build_learnt
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.save import save_table
-from rotator.exchange.motor import LearntMotor, Trust
+from rotator.exchange.motor import Motor, Trust
 from rotator.exchange.status import Latch
 from rotator.store.compass import CompassFile
 from rotator.store.counts import CountsFile, Place, Standing
@@ -72,8 +72,8 @@ def test_what_the_motors_taught_is_believed(tmp_path: Path, caplog: pytest.LogCa
     """Figures count only with the settings that they were learnt with: those are in the file too."""
     shutil.copy(FIRST / "g5500-state.json", tmp_path / "state.json")
     learnt = build_learnt(config_of("g5500", tmp_path)).load()
-    assert learnt[AZ] == (LearntMotor(5.81, 0.92), LearntMotor(6.1, 1.0))
-    assert learnt[EL] == (LearntMotor(2.6, 0.3), LearntMotor(2.8, 0.25))
+    assert learnt[AZ] == (Motor(5.81, 0.92), Motor(6.1, 1.0))
+    assert learnt[EL] == (Motor(2.6, 0.3), Motor(2.8, 0.25))
     assert not caplog.records
 
 

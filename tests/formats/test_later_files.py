@@ -17,7 +17,7 @@ from hw.ports import Axis
 from rotator.config import migrations
 from rotator.config.load import ConfigError, load
 from rotator.config.save import save_table
-from rotator.exchange.motor import ALL_OPEN, LearntMotor, Trust
+from rotator.exchange.motor import ALL_OPEN, Motor, Trust
 from rotator.store.compass import CompassFile
 from rotator.store.counts import LOST, CountsFile
 from rotator.store.forms import Form
@@ -53,7 +53,7 @@ def test_what_the_motors_taught_is_learnt_anew_and_not_kept(later: Path, caplog:
     before = write_later(later, "state")
     file = LearntFile(later, BEGUN)
     assert file.load() == {}
-    motor = LearntMotor(5.8, 1.0)
+    motor = Motor(5.8, 1.0)
     file.save({AZ: (motor, motor)}, ending=True)
     assert later.read_bytes() == before
     assert_told(caplog, later)

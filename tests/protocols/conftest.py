@@ -13,7 +13,6 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.admission import refusal
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
@@ -21,6 +20,7 @@ from rotator.control.controller import Controller
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.exchange.faults import Missing
+from rotator.exchange.motor import Motor
 from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Park, RunTimed
 from rotator.exchange.sources import Refusal, Source
 from rotator.exchange.status import Status

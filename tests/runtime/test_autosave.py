@@ -13,7 +13,7 @@ from rotator.assembly.kept_files import build_learnt
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.load import load
-from rotator.exchange.motor import LearntMotor
+from rotator.exchange.motor import Motor
 from rotator.exchange.orders import Aim, Calibrate, Order
 from rotator.exchange.sources import Source
 from rotator.runtime.autosave import Autosave
@@ -32,7 +32,7 @@ bus_takes_time = false
 [state]
 path = "{state}"
 """
-AS_SAID = (LearntMotor(6.0, 6.0 * 0.17),) * 2
+AS_SAID = (Motor(6.0, 6.0 * 0.17),) * 2
 
 
 class Running:
@@ -88,7 +88,7 @@ def test_other_figures_in_the_file_begin_anew(path: Path) -> None:
     first.turn_about()
     first.autosave.close()
     path.write_text(path.read_text().replace("[azimuth]", "[azimuth]\nspeed_dps = 5.0"))
-    assert Running(path, path).begun_with == (LearntMotor(5.0, 5.0 * 0.17),) * 2
+    assert Running(path, path).begun_with == (Motor(5.0, 5.0 * 0.17),) * 2
 
 
 def test_a_state_that_cannot_be_written_ends_in_the_log(path: Path, caplog: pytest.LogCaptureFixture) -> None:

@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 from hw.ports import Direction
 from rotator.assembly.kept_files import build_learnt
-from rotator.control.axis.motion import Motor
-from rotator.exchange.motor import LearntMotor
+from rotator.exchange.motor import Motor
 from rotator.store import compass, counts, knobs, learnt
 from rotator.store.json_file import JsonFile
 from tests.rotors.rig import AZ, EL, KINDS, Box, Kind, configured
@@ -81,7 +80,7 @@ def damaged(draw: st.DrawFn, text: str) -> bytes:
 def whole_state(kind: Kind, folder: Path) -> str:
     """The state file as the box itself writes it, with figures that differ from the configured ones."""
     config = configured(kind.profile, state={"path": str(folder / "state.json")})
-    motor = LearntMotor(config.azimuth.speed_dps * 0.9, 0.4)
+    motor = Motor(config.azimuth.speed_dps * 0.9, 0.4)
     build_learnt(config).save(dict.fromkeys((AZ, EL), (motor, motor)), ending=True)
     return (folder / "state.json").read_text()
 

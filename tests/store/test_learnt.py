@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.exchange.motor import LearntMotor
+from rotator.exchange.motor import Motor
 from rotator.store.learnt import LearntFile, Motors
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -18,7 +18,7 @@ BEGUN = {AZ: {"hardware": "pi", "speed_dps": 6.0, "coast_s": 0.17}, EL: {"hardwa
 
 
 def motors(speed_dps: float = 5.6, coast_deg: float = 1.1) -> Motors:
-    return LearntMotor(speed_dps, coast_deg), LearntMotor(speed_dps + 0.1, coast_deg)
+    return Motor(speed_dps, coast_deg), Motor(speed_dps + 0.1, coast_deg)
 
 
 BOTH = {AZ: motors(), EL: motors(2.5, 0.4)}

@@ -17,7 +17,7 @@ from rotator.control.axis.settings import AxisSettings
 from rotator.control.seen_turning import SeenTurning
 from rotator.control.sky.goal import AimGoal
 from rotator.exchange.faults import Fault, Missing, Notice
-from rotator.exchange.motor import ALL_OPEN, LearntMotor, Tries, Trusts
+from rotator.exchange.motor import ALL_OPEN, Motor, Tries, Trusts
 from rotator.exchange.status import AxisStatus
 
 Settings = TypeVar("Settings", bound=AxisSettings)
@@ -119,7 +119,7 @@ class AxisBase(ABC, Generic[Settings]):
         notices: tuple[Notice, ...],
         tries: Tries,
         calibration: tuple[tuple[float, float], ...] | None = None,
-        learnt: tuple[LearntMotor, LearntMotor] | None = None,
+        learnt: tuple[Motor, Motor] | None = None,
         trusts: Trusts = ALL_OPEN,
         waiting: bool = False,
     ) -> AxisStatus:

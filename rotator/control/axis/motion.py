@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import Direction
+from rotator.exchange.motor import Motor
 
 GAIN_RUNNING = 0.15
 GAIN_RESTING = 0.03
@@ -30,19 +31,6 @@ LEAST_RUN_DEG = 1.0
 NEARLY_FULL_SPEED = 0.98
 FULL_SPEED = 0.8
 """A run that got this near to full speed shows the whole coast."""
-
-
-@dataclass(frozen=True, slots=True)
-class Motor:
-    """One direction of a motor, as learnt."""
-
-    speed_dps: float
-    coast_deg: float
-    """How far it goes on when switched off at full speed."""
-
-    @property
-    def lag_s(self) -> float:
-        return max(self.coast_deg / self.speed_dps, 1e-3)
 
 
 @dataclass(slots=True)

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.driven_watch import DrivenWatch
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.opening_watch import OpeningWatch
 from rotator.control.axis.readings import NORMAL, Condition
@@ -19,7 +18,7 @@ from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.motor import Trusts
+from rotator.exchange.motor import Motor, Trusts
 
 
 class MotionWatch:

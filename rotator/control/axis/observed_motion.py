@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.trend import Slope, Trend
 from rotator.control.sky.mount import Range
+from rotator.exchange.motor import Motor
 
 SLOWEST_DPS = 0.5
 """Until an axis has shown how fast it turns it may be as slow as this, also if the configuration says otherwise."""

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from hw.ports import Direction
-from rotator.control.axis.motion import Motion, Motor
+from rotator.control.axis.motion import Motion
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import SwitchedSettings
@@ -18,6 +18,7 @@ from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.exchange.faults import Fault, FaultKind
+from rotator.exchange.motor import Motor
 
 FASTER_THAN_FILE, FASTER_THAN_LEARNT = 1.5, 1.2
 """How many times faster a motor may be than the file says, or than its runs have shown."""

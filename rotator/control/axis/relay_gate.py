@@ -11,7 +11,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from hw.ports import Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS, doubts, unstoppable
@@ -21,7 +20,7 @@ from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.motor import Trust, Trusts
+from rotator.exchange.motor import Motor, Trust, Trusts
 
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""

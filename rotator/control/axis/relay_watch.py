@@ -9,11 +9,10 @@ from collections.abc import Mapping
 from typing import Protocol
 
 from hw.ports import Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_state import RelayState
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.motor import Trusts
+from rotator.exchange.motor import Motor, Trusts
 
 
 class RelayWatch(Protocol):

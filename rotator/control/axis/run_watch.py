@@ -11,7 +11,6 @@ from collections.abc import Mapping
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.contact_watch import ContactWatch
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.axis.relay_faults import WAYS, accusation, unstoppable
 from rotator.control.axis.relay_state import RelayState
@@ -19,7 +18,7 @@ from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.silent_runs import SilentRuns
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.motor import Trusts
+from rotator.exchange.motor import Motor, Trusts
 
 TRAVEL_SHARE, TRAVEL_MORE_S = 1.3, 5.0
 """A motor may run this much longer in one go than the travel from end to end takes."""

@@ -55,12 +55,9 @@ class SeenRun:
         self._fastest_dps: float
         """The fastest that the axis has turned in this run, for certain."""
         self._measured: dict[Direction, float] = {}
-        self.begin()
-
-    @property
-    def measured_dps(self) -> float | None:
+        self.measured_dps: float | None = None
         """The slower of the speeds that the latest runs have shown; None: no run has shown one."""
-        return min(self._measured.values(), default=None)
+        self.begin()
 
     @property
     def motor_dps(self) -> float:
@@ -98,6 +95,7 @@ class SeenRun:
             line = self._exactly(line, now_s) if lasted_s >= STEADY_S else line
             if abs(line.speed_dps) >= EXACT_ERRORS * line.error_dps:
                 self._measured[direction] = abs(line.speed_dps)
+                self.measured_dps = min(self._measured.values())
         self.ended = EndedRun(direction, now_s, lasted_s, line, angle_deg)
 
     def _turning(self, at_s: float, since_s: float) -> Slope | None:

@@ -10,11 +10,10 @@ from dataclasses import dataclass
 from hw.ports import AngleSource, Axis
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Window
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Missing
-from rotator.exchange.motor import ALL_OPEN, NO_TRIES, Tries, Trusts
+from rotator.exchange.motor import ALL_OPEN, NO_TRIES, Motor, Tries, Trusts
 
 NEAR_DEG = 0.5
 """How far from its place a positioned axis may come to rest, where its drive leaves no dead band."""

@@ -14,14 +14,13 @@ from dataclasses import dataclass
 
 from hw.ports import Direction
 from rotator.control.axis.goals import JogGoal
-from rotator.control.axis.motion import Motion, Motor
+from rotator.control.axis.motion import Motion
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import BOTH_WAYS
 from rotator.control.commands import Run
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path, next_place_deg
-from rotator.exchange.motor import LearntMotor
+from rotator.exchange.motor import Motor
 from rotator.exchange.status import JOG_ENDS_DEG
 
 LEAST_SHARE = 0.55
@@ -82,9 +81,8 @@ class SwitchedLaw:
             self.motion.note_drive(now_s, relays.direction, wanted_deg)
 
     @property
-    def learnt(self) -> tuple[LearntMotor, LearntMotor]:
-        plus, minus = (self.motion.motors[way] for way in BOTH_WAYS)
-        return LearntMotor(plus.speed_dps, plus.coast_deg), LearntMotor(minus.speed_dps, minus.coast_deg)
+    def learnt(self) -> tuple[Motor, Motor]:
+        return self.motion.motors[Direction.PLUS], self.motion.motors[Direction.MINUS]
 
     def forget_run(self) -> None:
         """Something was wrong with the present or latest run: what it has taught is dropped."""

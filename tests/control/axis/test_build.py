@@ -9,12 +9,12 @@ import pytest
 from hw.ports import AngleSource, Axis, Direction
 from rotator.control.axis.build import build_axis
 from rotator.control.axis.homing import HomingSettings
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.axis.readings import ANYTHING
 from rotator.control.axis.settings import AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.refused import Refused
 from rotator.control.sky.mount import Range
+from rotator.exchange.motor import Motor
 
 MEASURED = SwitchedSettings(Axis.AZIMUTH, Range(0, 450), 4.0, Motor(6.0, 1.0), ANYTHING, None)
 COUNTED = replace(MEASURED, source=AngleSource.COUNTED, homing=HomingSettings(0.8, 75.0, 0.5, 0.0))

@@ -5,12 +5,11 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.motor import ALL_OPEN, Trust
+from rotator.exchange.motor import ALL_OPEN, Motor, Trust
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

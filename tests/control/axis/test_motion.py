@@ -11,7 +11,8 @@ import math
 import pytest
 
 from hw.ports import Direction
-from rotator.control.axis.motion import JUMP_READINGS, LANDING_READINGS, RESTS_AFTER_S, Motion, Motor
+from rotator.control.axis.motion import JUMP_READINGS, LANDING_READINGS, RESTS_AFTER_S, Motion
+from rotator.exchange.motor import Motor
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05

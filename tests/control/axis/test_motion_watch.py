@@ -7,12 +7,11 @@ import random
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.relay_faults import CUT_BY_HAND
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault
-from rotator.exchange.motor import ALL_OPEN
+from rotator.exchange.motor import ALL_OPEN, Motor
 from tests.control.axis.switch import Switch
 from tests.search import examples
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import RELAY_SETTLES_S, ObservedMotion, SpeedWindow
 from rotator.control.sky.mount import Range
+from rotator.exchange.motor import Motor
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

@@ -10,7 +10,7 @@ from firmware_sim.parts.motor import MotorSpec, SimMotor
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
-from rotator.control.axis.motion import Motion, Motor
+from rotator.control.axis.motion import Motion
 from rotator.control.axis.reach import FASTER_THAN_FILE, RELAY_OPENS_S, START_S, Bounds, Reach, bounds, lost
 from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.relay_state import RelayState
@@ -20,6 +20,7 @@ from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.exchange.faults import Fault, FaultKind
+from rotator.exchange.motor import Motor
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05

@@ -9,14 +9,13 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import NORMAL, Condition, Window
 from rotator.control.axis.relay_gate import WAITS, RelayGate
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.motor import Trust, Trusts
+from rotator.exchange.motor import Motor, Trust, Trusts
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

@@ -8,7 +8,6 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import NORMAL, Window
 from rotator.control.axis.relay_gate import RelayGate
 from rotator.control.axis.relay_state import RelayState
@@ -17,7 +16,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.motor import Trust
+from rotator.exchange.motor import Motor, Trust
 
 MINUS, OFF, PLUS = Direction
 LEASE_S = 0.25

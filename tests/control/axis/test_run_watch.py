@@ -5,13 +5,12 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.exchange.motor import ALL_OPEN
+from rotator.exchange.motor import ALL_OPEN, Motor
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

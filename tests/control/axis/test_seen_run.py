@@ -7,10 +7,10 @@ import random
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.seen_run import SeenRun
 from rotator.control.sky.mount import Range
+from rotator.exchange.motor import Motor
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

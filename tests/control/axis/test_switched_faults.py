@@ -9,7 +9,6 @@ import pytest
 from hw.ports import AngleSource, Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import ANYTHING, NORMAL, Condition, Reading
 from rotator.control.axis.relay_gate import RelayGate
 from rotator.control.axis.relay_state import RelayState
@@ -18,6 +17,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_faults import SwitchedFaults
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
+from rotator.exchange.motor import Motor
 
 MINUS, OFF, PLUS = Direction
 AZ = Axis.AZIMUTH

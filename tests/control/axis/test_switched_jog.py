@@ -6,11 +6,11 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.goals import JogGoal
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.switched_law import SwitchedLaw, Timing
 from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
+from rotator.exchange.motor import Motor
 from rotator.exchange.status import JOG_ENDS_DEG
 
 MINUS, OFF, PLUS = Direction

@@ -9,11 +9,11 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.commands import Run
 from rotator.control.sky.plan import OFFSETS_S, Path
+from rotator.exchange.motor import Motor
 
 MINUS, OFF, PLUS = Direction
 LEASE_S, PERIOD_S = 0.25, 0.05

@@ -9,12 +9,11 @@ import random
 
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from hw.ports import Axis, Direction
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.readings import Condition
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault
-from rotator.exchange.motor import ALL_OPEN, Trusts
+from rotator.exchange.motor import ALL_OPEN, Motor, Trusts
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition, Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
@@ -19,7 +18,7 @@ from rotator.control.commands import Feed, Run, Unfed
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Missing
-from rotator.exchange.motor import ALL_OPEN, Trusts
+from rotator.exchange.motor import ALL_OPEN, Motor, Trusts
 from rotator.store.relays import after
 
 MINUS, OFF, PLUS = Direction
