@@ -29,9 +29,8 @@ def joined(mount: Mount, aim: Aim, wanted: Coordinates, axes: Coordinates) -> Ai
         return aim
     there_azimuth_deg, there_elevation_deg = mount.pointed(axis_azimuth_deg, axis_elevation_deg)
     if aim.elevation_deg is not None and ZENITH_DEG < aim.elevation_deg <= mount.elevation.max_deg:
-        # Above 90° it names the axis's own angle: the azimuth axis stays. Without an order it gets none now: a servo
-        # would jump to where it is assumed.
-        return aim if wanted[0] is None and mount.model.perfect else replace(aim, azimuth_deg=there_azimuth_deg)
+        # Above 90° it names the axis's own angle: the azimuth axis stays.
+        return replace(aim, azimuth_deg=there_azimuth_deg)
     azimuth_deg, elevation_deg = wanted
     if azimuth_deg is None or elevation_deg is None:
         azimuth_deg, elevation_deg = direction(there_azimuth_deg, there_elevation_deg)

@@ -40,7 +40,7 @@ def test_the_direction_in_force_counts_before_the_place_of_the_axes() -> None:
 def test_an_elevation_above_90_is_the_axis_s_own_angle_and_azimuth_stays() -> None:
     assert joined(FLIPS, Aim(None, 120.0), (21.0, 31.0), OVER) == Aim(200.0, 120.0)
     assert joined(FLIPS, Aim(None, 180.0), (21.0, 31.0), OVER) == Aim(200.0, 180.0)
-    assert joined(FLIPS, Aim(None, 120.0), NOWHERE, OVER) == Aim(None, 120.0), "without an order it gets none"
+    assert joined(FLIPS, Aim(None, 120.0), NOWHERE, OVER) == Aim(200.0, 120.0)
     low = Mount(Range(0, 450), Range(0, 160), flip=True)
     assert joined(low, Aim(None, 170.0), (21.0, 31.0), OVER) == Aim(21.0, 170.0), "that axis has no such angle"
 
