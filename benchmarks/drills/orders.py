@@ -304,7 +304,7 @@ class Orders:
                     self._anywhere(event, "elevation")
                 self._aims.aim_azimuth(event, 0.0)
             case "aim-elevation":
-                # Above 90° azimuth stays; without an order it goes to where it is assumed, as a servo's first pulse does.
+                # Above 90° azimuth stays; without an order it goes to where a servo's first pulse sends it.
                 stays = event.number(0) > ZENITH_DEG and bool(self.axes["azimuth"].goals)
                 if self.goes_round or (self._aims.shows_over_top and not stays):
                     self._anywhere(event, "azimuth")
