@@ -32,6 +32,15 @@ def great_circle_deg(
     return math.degrees(math.atan2(across, along))
 
 
+def lifted_deg(azimuth_off_deg: float, elevation_deg: float) -> float:
+    """The elevation that points nearest to a target at `elevation_deg`, while azimuth is this far off it."""
+    off = math.cos(math.radians(azimuth_off_deg))
+    if off <= 0.0:
+        return ZENITH_DEG
+    target = math.radians(elevation_deg)
+    return math.degrees(math.atan2(math.sin(target), math.cos(target) * off))
+
+
 def unit(azimuth_deg: float, elevation_deg: float) -> Vector:
     """A direction as a vector of length 1. An elevation past 90 points over the top."""
     az, el = math.radians(azimuth_deg), math.radians(elevation_deg)

@@ -10,11 +10,13 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from rotator.control.sky.known_path import KnownPath, Row
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.route import STEP_S, Speeds, Way
 from rotator.control.sky.steps import Trail, best_steps
+from rotator.control.sky.turning import lifted_between_deg
 from rotator.control.sky.way_goals import LEAST_WEIGHT
 from rotator.control.sky.ways import Leg, Route, best_route
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly, Step
@@ -138,7 +140,34 @@ def _axis_angles(
                 continue
             azimuths_deg.append(min(max(azimuth_deg, low_deg), high_deg))
             elevations_deg.append(mount.clear_deg(mount.azimuth.nearest(azimuth_deg), elevation_deg))
+    for before, leg in pairwise(legs):
+        _lift(mount, directions, (before, leg), azimuth, elevations_deg)
     return azimuths_deg, elevations_deg
+
+
+def _lift(
+    mount: Mount,
+    directions: Sequence[tuple[float, float]],
+    legs: tuple[Leg, Leg],
+    azimuth: PlannedMotor,
+    elevations_deg: list[float],
+) -> None:
+    """While azimuth turns from one leg to the next, elevation goes where the antenna points nearest to the target."""
+    before, leg = legs
+    from_deg, there_deg = before.flown.place(leg.look), leg.flown.place(min(leg.arrival, len(leg.flown.errors_deg) - 1))
+    travel_s = abs(there_deg[0] - from_deg[0]) / azimuth.speed_dps
+    if travel_s == 0.0:  # both legs wait at the same limit
+        return
+    spare_s = (leg.arrival - leg.look) * STEP_S - travel_s
+    begin_s = leg.look * STEP_S + (spare_s / 2 if azimuth.switched else 0.0)
+    for moment in range(math.floor(begin_s / PLAN_STEP_S), math.ceil((begin_s + travel_s) / PLAN_STEP_S) + 1):
+        if moment >= len(directions):
+            return
+        share = min(max((moment * PLAN_STEP_S - begin_s) / travel_s, 0.0), 1.0)
+        axis_azimuth_deg = from_deg[0] + share * (there_deg[0] - from_deg[0])
+        lifted_deg = lifted_between_deg(axis_azimuth_deg, directions[moment], (from_deg[1], there_deg[1]))
+        if lifted_deg is not None:
+            elevations_deg[moment] = mount.clear_deg(axis_azimuth_deg, lifted_deg)
 
 
 def _begin(leg: Leg, *, stepped: bool) -> int:

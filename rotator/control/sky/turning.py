@@ -7,12 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.angles import ZENITH_DEG, great_circle_deg, lifted_deg
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.route import STEP_S, Direction, Flown, Speeds, is_seen
 
 Place = tuple[float, float]
 """Azimuth and elevation on the axes' own scales."""
+LIFTS_FROM_DEG = 75.0
+"""While azimuth turns back under a target above this, elevation goes nearer to the zenith, and so nearer to the target.
+Lower targets are lost meanwhile anyway."""
+LIFT_LATE_DEG = 1.0
+"""Both motors turn at once then, in steps: the antenna is this much further off than after even motions."""
 
 
 class Turning:
@@ -21,6 +26,7 @@ class Turning:
     def __init__(self, mount: Mount, directions: Sequence[Direction], speeds: Speeds) -> None:
         self._directions = directions
         self._speeds = speeds
+        self._elevation = mount.elevation
         self._seen = [is_seen(mount, *direction) for direction in directions]
 
     def arrival(self, from_deg: Place, to: Flown, earliest: int, *, left: int) -> int:
@@ -42,11 +48,17 @@ class Turning:
     def errors_deg(self, from_deg: Place, to: Flown, look: int, arrival: int) -> list[float]:
         """The error from each look to the next until the antenna arrives. Looks at an unseen target are left out."""
         there, errors_deg = to.place(min(arrival, len(self._directions) - 1)), []
+        stands_deg, past_s = from_deg[1], STEP_S / 2
         for number in range(look, arrival):
+            azimuth_deg, elevation_deg = self._directions[number]
+            axis_azimuth_deg, _ = self.after(from_deg, there, (number - look + 0.5) * STEP_S)
+            lifted = lifted_between_deg(axis_azimuth_deg, self._directions[number], (from_deg[1], there[1]))
+            aim_deg = there[1] if lifted is None else self._elevation.nearest(lifted)
+            stands_deg = _turned_deg(stands_deg, aim_deg, self._speeds.elevation_dps * past_s)
+            past_s = STEP_S
             if self._seen[number]:
-                azimuth_deg, elevation_deg = self._directions[number]
-                place = self.after(from_deg, there, (number - look + 0.5) * STEP_S)
-                errors_deg.append(great_circle_deg(*place, azimuth_deg, max(0.0, elevation_deg)))
+                off_deg = great_circle_deg(axis_azimuth_deg, stands_deg, azimuth_deg, max(0.0, elevation_deg))
+                errors_deg.append(off_deg if lifted is None else off_deg + LIFT_LATE_DEG)
         return errors_deg
 
     def travel_s(self, from_deg: Place, to_deg: Place) -> float:
@@ -62,6 +74,17 @@ class Turning:
             _turned_deg(from_deg[0], to_deg[0], self._speeds.azimuth_dps * seconds),
             _turned_deg(from_deg[1], to_deg[1], self._speeds.elevation_dps * seconds),
         )
+
+
+def lifted_between_deg(axis_azimuth_deg: float, target: Direction, between_deg: tuple[float, float]) -> float | None:
+    """The elevation for a moment of a turn between these two elevations, with azimuth where it is by then.
+
+    None: the target is too low, or the turn goes over the top.
+    """
+    azimuth_deg, elevation_deg = target
+    if elevation_deg < LIFTS_FROM_DEG or max(between_deg) > ZENITH_DEG:
+        return None
+    return lifted_deg(azimuth_deg - axis_azimuth_deg, elevation_deg)
 
 
 def _turned_deg(from_deg: float, to_deg: float, by_deg: float) -> float:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.control.sky.angles import Vector, direction_of, dot, great_circle_deg, turn_deg, unit
+from rotator.control.sky.angles import Vector, direction_of, dot, great_circle_deg, lifted_deg, turn_deg, unit
 
 azimuths = st.floats(-720, 720)
 elevations = st.floats(-90, 180)
@@ -92,3 +92,12 @@ def test_the_product_of_two_directions_is_the_cosine_between_them(
 
 def test_a_product_of_vectors_of_any_length() -> None:
     assert dot((2.0, 3.0, 5.0), (7.0, 11.0, 13.0)) == 14.0 + 33.0 + 65.0
+
+
+@given(st.floats(-180, 180), st.floats(0, 90), st.floats(0, 90))
+def test_no_other_elevation_points_nearer_while_azimuth_is_off(off_deg: float, target_deg: float, other: float) -> None:
+    lifted = lifted_deg(off_deg, target_deg)
+    assert target_deg - 1e-9 <= lifted <= 90.0
+    nearest_deg = great_circle_deg(off_deg, lifted, 0.0, target_deg)
+    assert nearest_deg <= great_circle_deg(off_deg, other, 0.0, target_deg) + 1e-6
+    assert nearest_deg <= 90.0 - target_deg + 1e-6

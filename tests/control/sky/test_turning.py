@@ -6,7 +6,7 @@ import pytest
 
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.route import STEP_S, Flown, Speeds, Way
-from rotator.control.sky.turning import Turning
+from rotator.control.sky.turning import LIFT_LATE_DEG, Turning, lifted_between_deg
 
 MOUNT = Mount(Range(0.0, 450.0), Range(0.0, 180.0))
 SPEEDS = Speeds(6.0, 3.0)
@@ -98,3 +98,28 @@ def test_below_the_horizon_the_antenna_waits_level() -> None:
     directions = [(100.0, -5.0)] * 4
     way = Flown(low, directions, Way(100.0, flipped=False))
     assert Turning(low, directions, SPEEDS).errors_deg((160.0, 0.0), way, 0, 2) == pytest.approx([45.0, 15.0])
+
+
+@pytest.mark.parametrize(
+    ("elevation_deg", "between_deg", "lifted"),
+    [
+        (80.0, (80.0, 80.0), 90.0),
+        (75.0, (60.0, 70.0), 90.0),
+        (74.9, (80.0, 80.0), None),  # too low to be kept
+        (80.0, (80.0, 100.0), None),  # over the top
+        (80.0, (100.0, 80.0), None),
+    ],
+)
+def test_under_a_target_near_the_zenith_elevation_is_lifted_while_azimuth_turns_back(
+    elevation_deg: float, between_deg: tuple[float, float], lifted: float | None
+) -> None:
+    assert lifted_between_deg(300.0, (100.0, elevation_deg), between_deg) == lifted
+
+
+def test_a_turn_right_round_under_a_high_target_stays_within_its_distance_from_the_zenith() -> None:
+    turning, there = standing(10.0, 84.0)
+    errors_deg = turning.errors_deg((370.0, 84.0), there, 0, 12)
+    assert len(errors_deg) == 12
+    assert max(errors_deg) <= 6.0 + LIFT_LATE_DEG + 1e-6
+    low, below = standing(10.0, 70.0)
+    assert max(low.errors_deg((370.0, 70.0), below, 0, 12)) > 35.0
