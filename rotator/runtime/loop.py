@@ -7,7 +7,6 @@ rotor: it may open relays at any time. The sensors have a thread of their own, s
 from __future__ import annotations
 
 import logging
-import threading
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -18,6 +17,7 @@ from rotator.exchange.orders import Order, Stop
 from rotator.exchange.sources import PAGE, Source
 from rotator.exchange.status import Latch, Status
 from rotator.rotors.port import Rotor
+from rotator.runtime.bell import Bell
 from rotator.runtime.errands import Errands
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
@@ -71,9 +71,9 @@ class ControlLoop:
         self._clock = clock
         self._period_s = period_s
         self._journal = Journal(clock)
-        self._wake = threading.Event()
-        self._inbox = Inbox(self._wake.set)
-        self._sensors = SensorThread(rotor, clock, period_s, self._journal, self._wake.set)
+        self._wake = Bell()
+        self._inbox = Inbox(self._wake.ring)
+        self._sensors = SensorThread(rotor, clock, period_s, self._journal, self._wake.ring)
         self._listeners: list[Callable[[Source, Order], None]] = []
         self._stopping = False
         self._failure: Exception | None = None
@@ -153,7 +153,6 @@ class ControlLoop:
             while not self._stopping:
                 asked_s = self._clock()
                 self._wake.wait(self._period_s * LATE_PERIODS)
-                self._wake.clear()
                 if self._failure is not None:
                     raise self._failure
                 if self._stopping:
@@ -173,12 +172,12 @@ class ControlLoop:
     def fail(self, failure: Exception) -> None:
         """Let `run` end with this failure of another thread. May be called from any thread."""
         self._failure = failure
-        self._wake.set()
+        self._wake.ring()
 
     def stop(self) -> None:
         """Let `run` end, from any thread. May be called twice."""
         self._stopping = True
-        self._wake.set()
+        self._wake.ring()
 
     def leave(self) -> None:
         """End the sensor thread too, even if `run` hangs. May be called twice, from any thread."""
@@ -189,7 +188,6 @@ class ControlLoop:
         give_up_s = self._clock() + COAST_S
         while self._rotor.coasts() and self._sensors.failure is None and self._clock() < give_up_s:
             self._wake.wait(self._period_s)
-            self._wake.clear()
 
     def _watch_links(self, now_s: float) -> None:
         """While an event loop stands still, its links or its page cannot send a stop. So motion ordered there ends."""

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from hw.ports import AngleSensor, Axis, HardwareError
 from rotator.control.axis.readings import Reading
 from rotator.rotors.port import Rotor
+from rotator.runtime.bell import Bell
 from rotator.runtime.journal import Journal
 
 NAMES = {axis: axis.value for axis in Axis}
@@ -45,7 +46,9 @@ class SensorThread:
         self._readings: dict[Axis, Reading] = {}
         self._begun_s: float | None = None
         """When the control loop first asked for readings; None: not yet."""
-        self._stop = threading.Event()
+        self._stopping = False
+        self._due = Bell()
+        """Rings when the thread must not wait for its next round."""
         self._thread = threading.Thread(target=self._keep_reading, name=SENSORS_THREAD, daemon=True)
 
     @property
@@ -67,7 +70,8 @@ class SensorThread:
 
     def stop(self) -> None:
         """Let the thread end. May be called twice, and from any thread."""
-        self._stop.set()
+        self._stopping = True
+        self._due.ring()
 
     def join(self) -> None:
         """Wait for the end, but not for a bus that hangs: a thread that only reads cannot move anything."""
@@ -77,12 +81,12 @@ class SensorThread:
     def _keep_reading(self) -> None:
         try:
             due_s = self._clock()
-            while not self._stop.is_set():
+            while not self._stopping:
                 self.read_all()
                 self._on_round()
                 # If it is late, it goes on from now: a burst of readings would not help.
                 due_s = max(due_s + self._period_s, self._clock())
-                self._stop.wait(due_s - self._clock())
+                self._due.wait(due_s - self._clock())
         except Exception as failure:
             # The control thread raises this failure, which stops the motors.
             self.failure = failure
