@@ -36,8 +36,8 @@ class AxisCase:
     counts: bool = False
     blind: bool = False
     """The contact of a counted axis is stuck: nothing shows that a welded relay turns the axis."""
-    shows_ends: bool = False
-    """Limit switches show the ends of the axis, also where the axis was never set up."""
+    shown_ends: tuple[int, ...] = ()
+    """The ends, 1 or -1, that a limit switch shows, also where the axis was never set up."""
     repeats: bool = False
     """The sensor repeats one reading: other faults of the sensor do not show."""
     deaf: bool = False

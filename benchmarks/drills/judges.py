@@ -92,7 +92,7 @@ class Judges:
                 case.at_stops_s = 0.0
         pressed, self._pressed_s = self._orders.button.pressed_s != self._pressed_s, self._orders.button.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
-            if pressed and truth.name == self._orders.lacking and not case.shows_ends:
+            if pressed and self._watched(truth, case):
                 case.press()
             if truth.shorted_s > case.shorted_s:
                 # While an axis presses against its stop, nothing shows that its relay has welded: when it homes, for a
@@ -176,12 +176,16 @@ class Judges:
 
         A stop from a link and a restart release nothing. Within the range the first time may be ice.
         """
-        pressed = truth.name == self._orders.lacking and not case.shows_ends
+        pressed = self._watched(truth, case)
         if truth.at_stop != truth.power or not truth.relayed or case.counts or case.drifts or pressed:
             return
         case.at_stops_s += self._past_s
         if case.at_stops_s > TRIES * max(BEYOND_S, case.patience_s) + LOOK_S:
             self._accuse(BEYOND, truth, f"{case.at_stops_s:.2f} s since a person let it go, at {truth.shaft_deg:.1f}°")
+
+    def _watched(self, truth: AxisTruth, case: AxisCase) -> bool:
+        """Whether a person sets this axis up, and no limit switch shows its present place."""
+        return truth.name == self._orders.lacking and truth.at_stop not in case.shown_ends
 
     def _away(self, truth: AxisTruth, case: AxisCase, orders: AxisOrders) -> None:
         goals, here_deg = orders.goals.values(), truth.shaft_deg + case.shift_deg
@@ -214,7 +218,7 @@ class Judges:
             case.stood_s += self._past_s
         tried = case.stood_s > case.patience_s if case.counts else before_s <= START_S < case.standing_s
         # A person who sets the axis up watches it: each press counts for itself.
-        pressed = truth.name == self._orders.lacking and not case.shows_ends
+        pressed = self._watched(truth, case)
         winds_down = self._now_s < case.winds_down_s
         if tried and not pressed and not winds_down and self._orders.holds(truth.name):
             case.stood_s = 0.0

@@ -29,7 +29,7 @@ UNCALIBRATED_S = 2.0
 PUT_OFF_S = 6.0
 """A jog with a time may begin this late: when the box has seen the axis stand."""
 UNSEEN_S = 0.2
-"""A stop and its release this soon after a turn of a knob may come before the panel has seen that turn."""
+"""A stop and its release, or a new mode, this soon after a turn of a knob may come before the panel has seen it."""
 LEASE_S = 0.5
 """A button on the page counts as held for this time after its last sign."""
 ROUND, BEFORE = "round a sector", "before a jog"
@@ -145,6 +145,7 @@ class Orders:
                 self._silenced.forget()
                 self._held_off.forget()
                 self._aims.shifts.cleared()
+                self._knob_seen_since(turned.since_s)
             if turned.releases:
                 self._release(now_s)
         if not self._held:
@@ -343,8 +344,12 @@ class Orders:
     def _heard_again(self, now_s: float) -> None:
         """The silence of all senders ends: no stop holds them back any more."""
         self._silenced.forget()
-        if self._knob is not None and now_s - self._knob.at_s < UNSEEN_S:
-            self._note_panel(self._knob)  # the panel may see the turn only now
+        self._knob_seen_since(now_s)
+
+    def _knob_seen_since(self, since_s: float) -> None:
+        """Orders count since that moment: a turn of a knob just before it may be seen only then."""
+        if self._knob is not None and since_s - self._knob.at_s < UNSEEN_S:
+            self._note_panel(self._knob)
 
     def _left(self, event: Event) -> None:
         for axis, orders in self.axes.items():

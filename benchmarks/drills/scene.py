@@ -66,7 +66,9 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         shift_deg=build_offsets(config).of(axis),
         feels=source is not AngleSource.MODELLED,
         counts=source is AngleSource.COUNTED,
-        shows_ends=bool(config.limits.switches),
+        shown_ends=tuple(
+            way for way, end in ((1, "high"), (-1, "low")) if f"{axis.value}_{end}" in config.limits.switches
+        ),
         patience_s=patience_s,
     )
 

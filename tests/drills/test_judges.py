@@ -6,6 +6,7 @@ import pytest
 
 from benchmarks.drills import judges
 from benchmarks.drills.axis_case import AxisCase
+from benchmarks.drills.front_panel import STILL_S
 from benchmarks.drills.goals import Ranges
 from benchmarks.drills.judges import Judges
 from benchmarks.drills.orders import Orders
@@ -147,6 +148,16 @@ def test_a_new_mode_ends_the_orders_before_it_and_none_after_it() -> None:
     assert mast.run(0.2) == []
     assert not mast.orders.holds("azimuth")
     assert mast.orders.holds("elevation")
+
+
+def test_a_knob_turned_just_before_a_mode_counts_may_be_seen_in_that_mode() -> None:
+    for before_s, found in ((0.1, []), (0.5, [judges.AFTER_STOP])):
+        mast = Mast()
+        mast.order("panel", "mode", "manual")
+        mast.run(STILL_S - before_s)
+        mast.order("panel", "knob", "azimuth", 0.5)
+        mast.run(0.6 + before_s)
+        assert mast.run(1.0, coil=1) == found
 
 
 def test_an_order_for_azimuth_may_turn_both_axes_round_a_sector() -> None:
@@ -349,12 +360,23 @@ def test_a_person_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again
 
 def test_limit_switches_show_the_ends_of_an_axis_that_was_never_set_up() -> None:
     mast = Mast(at_deg=361.0, lacking="azimuth")
-    mast.case.feels, mast.case.shows_ends = False, True
+    mast.case.feels, mast.case.shown_ends = False, (1,)
     mast.order("console", "jog", "cw", 2.0)
     mast.run(2.0, coil=1)
     mast.run(1.0)
     mast.order("console", "jog", "cw", 2.0)
     assert mast.run(1.0, coil=1) == [judges.BEYOND]
+
+
+def test_a_limit_switch_shows_nothing_of_an_axis_that_stands_elsewhere() -> None:
+    """Its motor is stalled in mid-range, or it presses on the other stop: each press of a person counts for itself."""
+    for at_deg, ends in ((200.0, (1, -1)), (361.0, (-1,))):
+        mast = Mast(at_deg=at_deg, lacking="azimuth")
+        mast.case.shown_ends = ends
+        mast.order("console", "jog", "cw", 2.0)
+        assert mast.run(2.0, coil=1, dps=0.0) == []
+        mast.order("console", "jog", "cw", 2.0)
+        assert mast.run(2.0, coil=1, dps=0.0) == []
 
 
 def test_opposite_relays_that_meet_at_a_stop_are_excused_only_by_a_weld() -> None:
