@@ -213,7 +213,8 @@ class _Listener:
         up = [(each, sight) for each, sight in seen if sight.elevation_deg > -FASTEST_DPS]
         near = [each for each, sight in up if sight.apart_deg(order.direction) <= SIEVE_DEG]
         with suppress(NotThere):
-            self._soon = soon_rising(order, seen) if order.elevation_deg == 0 else []
+            in_use = [each for each in satellites if each.name in self._likely]
+            self._soon = soon_rising(order, seen, in_use) if order.elevation_deg == 0 else []
         self._near = [known.get(each) or SampledPath(each) for each in near]
         likely = sum(each.name in self._likely for each in satellites)
         self._known = Known(len(satellites), likely, len(up))

@@ -16,14 +16,15 @@ from rotator.orbits.rise_chance import RISE_EVERY_S
 from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target
 from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, rounding_deg, turn_deg
 
-LONGEST_WAIT_S = 180.0
-"""A satellite that rises later is not looked for."""
+LONGEST_WAIT_S, LONGEST_WAIT_IN_USE_S = 180.0, 1200.0
+"""A satellite that rises later is not looked for. Those in use are few, and are looked for earlier: some programs send
+one order long before the rise, and then nothing until it."""
 LOWEST_DEG = -15.0
 """Elevation below which no satellite near the earth is `LONGEST_WAIT_S` before its rise."""
 SWINGS_DEG = 60.0
 """Low in the sky the azimuth of a satellite changes by less than this in `LONGEST_WAIT_S`."""
-LEAST_ORDERS, LEAST_S = 3, 2.0
-"""One order, or one that is repeated at once, may be a person's."""
+LEAST_ORDERS, LEAST_S, WHOLE_DEG = 3, 2.0, 1.0
+"""One order, or one that is repeated at once, may be a person's. One order in tenths or hundredths is of a program."""
 TURN_CHANCE = 2e-3
 """The allowed chance, over all satellites, that orders at the horizon fit a rise though they wait for no satellite."""
 FASTEST_DPS = 0.5
@@ -47,18 +48,20 @@ class Soon:
     rises_s: float
 
 
-def soon_rising(order: Heard, seen: Iterable[tuple[Target, Sight]]) -> list[Soon]:
+def soon_rising(order: Heard, seen: Iterable[tuple[Target, Sight]], in_use: Collection[Target] = ()) -> list[Soon]:
     """The satellites that may rise near the order's azimuth. `seen`: satellites with their present directions.
 
     Raises NotThere.
     """
+    waits_s = {
+        satellite: LONGEST_WAIT_S
+        for satellite, sight in seen
+        if LOWEST_DEG < sight.elevation_deg < 1.0 and abs(turn_deg(sight.azimuth_deg, order.azimuth_deg)) <= SWINGS_DEG
+    } | dict.fromkeys(in_use, LONGEST_WAIT_IN_USE_S)
     found = []
-    for satellite, sight in seen:
-        apart_deg = abs(turn_deg(sight.azimuth_deg, order.azimuth_deg))
-        if not LOWEST_DEG < sight.elevation_deg < 1.0 or apart_deg > SWINGS_DEG:
-            continue
+    for satellite, wait_s in waits_s.items():
         path = SampledPath(satellite)
-        if (rises_s := _rises_s(path, order.utc_s)) is not None:
+        if (rises_s := _rises_s(path, order.utc_s, wait_s)) is not None:
             found.append(Soon(path, rises_s))
     return found
 
@@ -68,11 +71,10 @@ def waits_for(orders: Sequence[Heard], soon: Sequence[Soon], known: Known, likel
 
     `likely`: names of the satellites in use. Raises NotThere.
     """
-    lasts_s = orders[-1].utc_s - orders[0].utc_s
-    at_horizon = all(order.elevation_deg == 0 for order in orders)
-    if not at_horizon or len(orders) < LEAST_ORDERS or lasts_s < LEAST_S - UNSTEADY_S:
+    lasts_s, rounding = orders[-1].utc_s - orders[0].utc_s, rounding_deg(orders)
+    enough = rounding < WHOLE_DEG or (len(orders) >= LEAST_ORDERS and lasts_s >= LEAST_S - UNSTEADY_S)
+    if not enough or any(order.elevation_deg > 0 for order in orders):
         return None
-    rounding = rounding_deg(orders)
     fits = [each for each in soon if _explains(each, orders, rounding)]
     if len(fits) != 1:
         return None
@@ -83,10 +85,10 @@ def waits_for(orders: Sequence[Heard], soon: Sequence[Soon], known: Known, likel
     return Rising(only.path.satellite, only.rises_s)
 
 
-def _rises_s(path: SampledPath, now_s: float) -> float | None:
+def _rises_s(path: SampledPath, now_s: float, wait_s: float) -> float | None:
     """The time of the rise; None: the satellite does not rise soon. A rise a few seconds ago counts too, because the
     program's clock may be behind."""
-    at_s, last_s = now_s + CLOCKS_S[0] - STEP_S, now_s + LONGEST_WAIT_S
+    at_s, last_s = now_s + CLOCKS_S[0] - STEP_S, now_s + wait_s
     before_deg = path.at(at_s).elevation_deg
     while at_s < last_s:
         after_deg = path.at(at_s + STEP_S).elevation_deg
@@ -99,11 +101,12 @@ def _rises_s(path: SampledPath, now_s: float) -> float | None:
 def _explains(soon: Soon, orders: Sequence[Heard], rounding: float) -> bool:
     """Whether this rise explains all orders by one clock of the program: each order has the satellite's azimuth of its
     moment, or until the rise the azimuth of the rise."""
-    return any(
-        all(_fits(soon, order, clock_s, least_s, rounding) for order in orders)
-        for least_s in (-math.inf, soon.rises_s)
-        for clock_s in CLOCKS_S
-    )
+    return any(_explained(soon, orders, least_s, rounding) for least_s in (-math.inf, soon.rises_s))
+
+
+def _explained(soon: Soon, orders: Sequence[Heard], least_s: float, rounding: float) -> bool:
+    """The same with the satellite's azimuth at `least_s` or later."""
+    return any(all(_fits(soon, order, clock_s, least_s, rounding) for order in orders) for clock_s in CLOCKS_S)
 
 
 def _fits(soon: Soon, order: Heard, clock_s: float, least_s: float, rounding: float) -> bool:
@@ -116,7 +119,8 @@ def _chance(soon: Soon, orders: Sequence[Heard], rounding: float) -> float:
     """The probability that orders without a satellite fit the rise of one satellite: its time, place and motion."""
     last, lasts_s = orders[-1], orders[-1].utc_s - orders[0].utc_s
     clocks_s = CLOCKS_S[-1] - CLOCKS_S[0]
-    rate_dps = abs(soon.path.at(last.utc_s).azimuth_dps)
+    stands_at_rise = _explained(soon, orders, soon.rises_s, rounding)
+    rate_dps = 0.0 if stands_at_rise else abs(soon.path.at(last.utc_s).azimuth_dps)
     wide_deg = 1.5 * rounding + 2 * BIAS_DEG + clocks_s * rate_dps
     span_s = max(0.0, soon.rises_s - last.utc_s) + clocks_s
     moved = min(1.0, (rounding + 2 * UNSTEADY_S * rate_dps) / lasts_s / FASTEST_DPS) if has_moved(orders) else 1.0

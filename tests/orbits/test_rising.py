@@ -65,7 +65,24 @@ def test_a_satellite_is_waited_for_before_its_rise_whatever_the_program_sends_un
     assert watch.followed(PROGRAM) is None, "it is not recognised by this"
 
 
-def test_one_order_names_nothing_and_three_are_enough(watch: StreamWatch) -> None:
+@pytest.mark.parametrize("name", SATELLITES)
+@pytest.mark.parametrize("before_s", [30.0, 400.0, 1150.0])
+@pytest.mark.parametrize("digits", [1, 2])
+def test_one_order_finer_than_whole_degrees_names_a_satellite_in_use(name: str, before_s: float, digits: int) -> None:
+    """A program that sends an order only when its target has moved sends one, and nothing until the rise."""
+    path = waiting(name)
+
+    def sent(angle_deg: float) -> float:
+        return round(angle_deg, digits)
+
+    assert waited_for(StreamWatch(SATELLITES.values()), path, rise_s(name) - 1150.0, 1, sent) is None
+    found = waited_for(StreamWatch(SATELLITES.values(), [name]), path, rise_s(name) - before_s, 1, sent)
+    assert found is not None
+    assert found.satellite.name == name
+    assert found.rises_s == pytest.approx(rise_s(name), abs=2.0)
+
+
+def test_one_order_in_whole_degrees_names_nothing_and_three_are_enough(watch: StreamWatch) -> None:
     path, from_s = path_of(SATELLITES[NAME]), rise_s(NAME) - 30.0
     found = [waited_for(watch, path, from_s + count, 1) for count in range(4)]
     assert [each is not None for each in found] == [False, False, True, True]
@@ -99,6 +116,19 @@ def test_of_two_that_fly_one_behind_the_other_none_is_waited_for() -> None:
     later = replace(later, mean_anomaly_deg=(later.mean_anomaly_deg - 0.2) % 360.0)
     watch = StreamWatch([first, Satellite(later, PARIS)])
     assert waited_for(watch, path_of(first), rise_s(NAME) - 60.0, 30) is None
+
+
+@pytest.mark.search
+def test_hardly_a_single_order_waits_for_one_of_a_dozen_in_use() -> None:
+    dice = random.Random("one order at the horizon")
+    elements, taken, count = catalogue(dice, 100), 0, examples(800)
+    known = [Satellite(each, Site(48.85, 2.35)) for each in elements]
+    for _ in range(count):
+        watch = StreamWatch(known, [each.name for each in dice.sample(elements, 12)])
+        utc_s = elements[0].epoch_utc_s + dice.uniform(0, 86_400.0)
+        watch.hear(PROGRAM, Aim(dice.randrange(36_000) / 100, 0.0), utc_s)
+        taken += watch.rising(PROGRAM) is not None
+    assert taken <= max(2.0, 0.01 * count)
 
 
 @pytest.mark.search

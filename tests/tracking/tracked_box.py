@@ -5,7 +5,7 @@ Plans are computed in the test's own process, at once.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -84,10 +84,12 @@ class Box:
         restarted: bool = False,
         looks: bool = True,
         elements: Path = ELEMENTS,
+        in_use: Sequence[str] = (),
     ) -> None:
         """`follow`: `[[sky.follow]]` of the configuration. `read_after_s`: until then no angle is known.
 
         `restarted`: its antenna has outlived an earlier run. Not `looks`: its tracking thread has had no turn yet.
+        `in_use`: names of the satellites that the station uses.
         """
         config = parse(follow, "box")
         self.clock = SimClock()
@@ -105,7 +107,9 @@ class Box:
         self.tracker = Tracker(
             sky, self.planner, tracked, lambda: self.clock_trusted, lambda: why_no_plan(config.sky, sky)
         )
-        self._listener = StreamListener(sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted)
+        self._listener = StreamListener(
+            sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted, wanted=lambda: in_use
+        )
         begun_s = self.clock() if restarted else None
         self.follower = Follower(self.tracker, self.planner, tracked, lambda: wanted_often(config.sky, sky)[0], begun_s)
         self.before_heard: Callable[[Order], None] = lambda _order: None
