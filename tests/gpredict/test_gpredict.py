@@ -16,6 +16,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
+
 from rotator.control.senders import PAUSE_S
 from tests.boxes import FAST_ROTOR
 from tests.gpredict.conftest import HOME, OFF
@@ -44,6 +46,7 @@ ROUND_EARTH_DEG = 1.5
 """How far the satellite may be from where `sky` has it, seen from below."""
 STOP_MS = 50
 WEST_OF_HOME = Station(HOME.latitude_deg, HOME.longitude_deg - 5)
+NORTH_OF_HOME = Station(HOME.latitude_deg + 18, HOME.longitude_deg)
 
 
 def now() -> datetime:
@@ -117,6 +120,38 @@ def test_it_follows_a_pass_through_north(
         assert apart_deg(ordered(said), seen) < THRESHOLD_DEG + ROUND_EARTH_DEG, "Gpredict means another satellite"
     assert hung_up_cleanly(tap.calls[0])
     assert gpredict.alive
+
+
+def test_long_before_a_rise_the_antenna_waits_on_the_turn_of_the_pass(
+    watched_box: WatchBox, start_gpredict: StartGpredict, tmp_path: Path
+) -> None:
+    """Gpredict sends once where the satellite will rise, at about 54, and nothing more until then. From there the pass
+    goes over north to 306: only the upper turn has room for it."""
+    satellite = Satellite("TEST-SAT", over=NORTH_OF_HOME, at=now() + timedelta(minutes=15), inclination_deg=112.0)
+    elements = tmp_path / "elements.tle"
+    elements.write_text("\n".join((satellite.name, *satellite.tle(now()))), encoding="utf-8")
+    known = f'''
+[station]
+latitude_deg = {HOME.latitude_deg}
+longitude_deg = {HOME.longitude_deg}
+[sky]
+elements = ["{elements}"]
+[[sky.follow]]
+name = "{satellite.name}"
+'''
+    box = watched_box(FAST_ROTOR + known)
+    gpredict, tap = start_gpredict(satellite, box.rotctld_port)
+    gpredict.track_and_engage()
+    until(lambda: tap.said("P"), "Gpredict sends nothing")
+    azimuth_deg, elevation_deg = ordered(tap.said("P")[-1])
+    assert azimuth_deg == pytest.approx(54.0, abs=3.0)
+    assert elevation_deg == 0.0
+
+    def there() -> bool:
+        at_deg, _ = box.angles_deg
+        return at_deg is not None and abs(at_deg - azimuth_deg - 360.0) <= TOLERANCE_DEG
+
+    until(there, "the antenna does not go to the upper turn")
 
 
 def test_it_is_stopped_from_elsewhere_until_it_connects_again(
