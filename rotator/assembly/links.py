@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from rotator.assembly.sessions import BINARY, session_maker
+from rotator.assembly.sessions import BINARY, HTTP, session_maker
 from rotator.config.links import FOLLOW, Link, address
 from rotator.control.sky.mount import Mount
 from rotator.exchange.sources import Source
@@ -155,7 +155,15 @@ def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
         )
     if link.protocol == FOLLOW:
         return AskingLink(wire, host, port, connections.follower, every_s=link.poll_s)
-    return TcpLink(wire, host, port, connections.session, allowed=Allowed(link.allow), most_clients=link.most_clients)
+    return TcpLink(
+        wire,
+        host,
+        port,
+        connections.session,
+        allowed=Allowed(link.allow),
+        most_clients=link.most_clients,
+        speaks_http=link.protocol in HTTP,
+    )
 
 
 def _report(link: Link, source: Source, shared: _Shared) -> Report | None:

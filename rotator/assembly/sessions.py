@@ -98,3 +98,4 @@ def session_maker(
 
 
 BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01", "stellarium")
+HTTP: tuple[ProtocolName, ...] = ("pstrotatoraz",)

@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable
 from typing import cast
 
+from rotator.links.browser import Beginning
 from rotator.links.wire import Conversation, Wire
 from rotator.protocols.session import Addressed, Session
 from rotator.runtime.log_limit import LogLimit
@@ -34,7 +35,7 @@ class Clients:
 
     `allowed` takes a machine's address and returns whether that machine may connect. When `most` clients are connected,
     a new client is refused. With `makes_room` the new client is accepted, and the client that has been silent longest
-    is dropped.
+    is dropped. A browser's connection is ended before its bytes are read, unless the protocol `speaks_http`.
     """
 
     def __init__(
@@ -45,9 +46,11 @@ class Clients:
         *,
         allowed: Callable[[str], bool] = lambda _host: True,
         makes_room: bool = False,
+        speaks_http: bool = False,
     ) -> None:
         self.wire = wire
         self.session = session
+        self.speaks_http = speaks_http
         self._most = most
         self._allowed = allowed
         self._makes_room = makes_room
@@ -111,6 +114,7 @@ class _Client(asyncio.BufferedProtocol):
         self._buffer = bytearray(READ_BYTES)
         self._transport: asyncio.Transport | None = None
         self._conversation: Conversation | None = None
+        self._beginning = Beginning()
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast(asyncio.Transport, transport)
@@ -130,8 +134,14 @@ class _Client(asyncio.BufferedProtocol):
         return self._buffer
 
     def buffer_updated(self, nbytes: int) -> None:
-        if self._conversation is not None and self._clients.heard(self):
-            self._conversation.received(bytes(self._buffer[:nbytes]))
+        if self._conversation is None or not self._clients.heard(self):
+            return
+        data = bytes(self._buffer[:nbytes])
+        if not self._clients.speaks_http and self._beginning.is_a_browsers(data):
+            self._clients.complain("a browser speaks HTTP here, a web site in it perhaps: turned away")
+            self.drop()
+            return
+        self._conversation.received(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
         if self._conversation is not None:

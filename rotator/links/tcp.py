@@ -19,7 +19,7 @@ MOST_CLIENTS = 128
 
 
 class TcpLink:
-    """`session` makes the protocol's side of a new connection."""
+    """`session` makes the protocol's side of a new connection. `speaks_http`: browsers may connect."""
 
     def __init__(
         self,
@@ -30,11 +30,12 @@ class TcpLink:
         *,
         allowed: Allowed = Allowed(),  # noqa: B008 - it never changes
         most_clients: int = MOST_CLIENTS,
+        speaks_http: bool = False,
     ) -> None:
         self.wire = wire
         self._host = host
         self._port = port
-        self._clients = Clients(wire, session, most_clients, allowed=allowed)
+        self._clients = Clients(wire, session, most_clients, allowed=allowed, speaks_http=speaks_http)
         self._server: asyncio.Server | None = None
 
     async def open(self) -> None:

@@ -185,6 +185,41 @@ def test_nobodys_flood_and_nobodys_pause_holds_up_a_stop(wire: Wire, port: int, 
     asyncio.run(talk())
 
 
+# --- browsers
+
+POST = b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: https://site.example\r\nContent-Length: 10\r\n\r\n"
+
+
+def test_what_a_web_site_lets_a_browser_send_is_no_order(
+    rotctld: TcpLink, port: int, running: Running, bench: Any, log: Any
+) -> None:
+    order = b"P 300 80\n"
+    sent = [(POST + order,), (b"PO", POST[2:], order), (b"\x16\x03\x01\n" + order,)]
+
+    async def talk() -> None:
+        async with running(rotctld), connected(port) as program:
+            for pieces in sent:
+                async with connected(port) as browser:
+                    for piece in pieces:
+                        await browser.send(piece)
+                    assert await browser.is_turned_away()
+            await log.wait("link: a browser speaks HTTP here, a web site in it perhaps: turned away")
+            assert bench.drives() == (0, 0)
+            assert await program.ask(order) == b"RPRT 0\n"
+            assert bench.drives() == (1, 1)
+
+    asyncio.run(talk())
+
+
+def test_a_protocol_on_http_is_for_browsers_too(wire: Wire, port: int, running: Running, bench: Any) -> None:
+    async def talk() -> None:
+        link = TcpLink(wire, "127.0.0.1", port, bench.rotctld, speaks_http=True)
+        async with running(link), connected(port) as browser:
+            assert await browser.ask(POST) == b"RPRT -4\n"
+
+    asyncio.run(talk())
+
+
 # --- coming and going
 
 
