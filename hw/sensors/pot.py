@@ -13,10 +13,16 @@ from hw.ports import AnalogInputs, AngleSource, HardwareError
 REFERENCE_EVERY_S = 1.0
 """Seconds between two readings of the supply. It drifts slowly; a reading in each cycle would double the bus time."""
 LEAST_REFERENCE_V = 0.5
+DRIFTS_SHARE = 0.01
+"""A supply that has changed by more than this since its last reading is read again: one bad sample would shift every
+pot until the next reading."""
 
 
 class Reference:
-    """The pots' supply voltage, measured on another input of the converter every REFERENCE_EVERY_S."""
+    """The pots' supply voltage, measured on another input of the converter every REFERENCE_EVERY_S.
+
+    A new voltage is the middle one of three readings.
+    """
 
     def __init__(self, adc: AnalogInputs, channel: int, clock: Callable[[], float]) -> None:
         self._adc = adc
@@ -30,6 +36,9 @@ class Reference:
         now_s = self._clock()
         if self._read_s is None or now_s - self._read_s >= REFERENCE_EVERY_S:
             volts = self._adc.volts(self._channel)
+            if abs(volts - self._volts) >= DRIFTS_SHARE * self._volts:
+                again = self._adc.volts(self._channel), self._adc.volts(self._channel)
+                volts = sorted((volts, *again))[1]
             if volts < LEAST_REFERENCE_V:
                 raise HardwareError(f"the pots' supply reads {volts:.2f} V on input {self._channel}: is it wired?")
             self._volts, self._read_s = volts, now_s

@@ -22,6 +22,8 @@ from rotator.config.adc import Adc
 from rotator.config.model import Config
 from rotator.config.spi import KERNEL_SELECTS
 
+SUPPLY = "supply"
+"""The name of the wire to the input that measures the pots' supply."""
 ADS1115_RANGE_V, ADS1115_WIDEST_RANGE_V = 4.096, 6.144
 
 
@@ -80,16 +82,17 @@ def simulate_adc(config: Config, rotor: SimRotor, clock: Callable[[], float]) ->
             chip = _wire_mcp3208(table, rotor)
     for axis in Axis:
         if config.has_pot(axis):
-            chip.inputs[table.channel(axis)] = _wiper(rotor, axis)
+            chip.inputs[table.channel(axis)] = _wire(rotor, axis.value)
     if table.reference_channel is not None:
-        chip.inputs[table.reference_channel] = lambda: table.supply_v
+        rotor.wipers.setdefault(SUPPLY, lambda: table.supply_v)
+        chip.inputs[table.reference_channel] = _wire(rotor, SUPPLY)
 
 
-def _wiper(rotor: SimRotor, axis: Axis) -> Callable[[], float]:
-    """The wiper is looked up at each conversion: a bench may put a bad contact into its wire later."""
+def _wire(rotor: SimRotor, name: str) -> Callable[[], float]:
+    """The volts are looked up at each conversion: a bench may put a bad contact into the wire later."""
 
     def volts() -> float:
-        return rotor.wipers[axis.value]()
+        return rotor.wipers[name]()
 
     return volts
 
