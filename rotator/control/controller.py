@@ -13,7 +13,7 @@ from rotator.control.authority import Authority
 from rotator.control.axis.build import build_axis
 from rotator.control.axis.readings import Reading
 from rotator.control.boom import with_boom
-from rotator.control.commands import Acknowledge, Command, Errand, Place
+from rotator.control.commands import Acknowledge, Command, Errand, Place, Run
 from rotator.control.cycles import Cycles
 from rotator.control.fence import Fence
 from rotator.control.movements import Movements
@@ -22,6 +22,7 @@ from rotator.control.refused import Refused
 from rotator.control.rights import deed_of
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
+from rotator.control.shared_supply import kept_off
 from rotator.exchange.faults import Notice
 from rotator.exchange.flight_order import Fly, Stream, TakeTurn
 from rotator.exchange.orders import (
@@ -99,7 +100,11 @@ class Controller:
             commands[axis] = decision.command
             if decision.homed_deg is not None:
                 self.errands.append(Place(axis, decision.homed_deg))
-        return self._fence.passed(now_s, commands)
+        commands = self._fence.passed(now_s, commands)
+        for fault in kept_off(self._axes, commands):
+            self._axes[fault.axis].fail(fault)
+            commands[fault.axis] = Run(Direction.OFF, now_s)
+        return commands
 
     def links_lost(self) -> None:
         """Links and consoles cannot send a stop now: what they ordered ends; so does what the broker or the tracker

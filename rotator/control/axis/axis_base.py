@@ -55,6 +55,10 @@ class AxisBase(ABC, Generic[Settings]):
         return False
 
     @property
+    def turns_when_fed(self) -> bool:
+        return False
+
+    @property
     def homeable(self) -> bool:
         return False
 

@@ -59,6 +59,10 @@ class ControlledAxis(Protocol):
         """Whether relays switch its motor, so that its starts can be counted."""
 
     @property
+    def turns_when_fed(self) -> bool:
+        """Whether its motor turns as soon as a master relay feeds the motors: a relay of it was found closed."""
+
+    @property
     def homeable(self) -> bool:
         """Whether it counts, and so has an end stop to find."""
 

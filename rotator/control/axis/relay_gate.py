@@ -57,6 +57,11 @@ class RelayGate:
         return self._waits_s < math.inf
 
     @property
+    def turns_when_fed(self) -> bool:
+        """A relay was found closed: its motor turns as soon as the box switches the supply on for the other motor."""
+        return self._settings.master and Trust.WELDED in self.trusts
+
+    @property
     def unsure(self) -> bool:
         """A relay may be stuck. Only cutting the supply, which the box can do, is sure to stop the motor."""
         return self._settings.master and self._watch.unsure

@@ -84,6 +84,10 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         return True
 
     @property
+    def turns_when_fed(self) -> bool:
+        return self._gate.turns_when_fed
+
+    @property
     def homeable(self) -> bool:
         return self._settings.homing is not None
 
