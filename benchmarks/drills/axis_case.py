@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 
 WELDED_S = 2.0
 TRY_S = 2.0
+SHOWN_S = 1.5
+"""A weld that has turned the axis for this time can be known."""
 COUNTED_PERIODS = 3
 """After this many periods of its contact without a change a counted axis can tell that it stands."""
 START_S = 0.5
@@ -60,6 +62,12 @@ class AxisCase:
     away_s: float = 0.0
     idle_s: float = 0.0
     welded_s: float = 0.0
+    weld_shown_s: float = 0.0
+    """For how long a welded relay has turned the axis since the box last fed its motor itself."""
+    weld_known: bool = False
+    """That was long enough to be seen, and the supply was cut afterwards."""
+    fed_s: float = 0.0
+    """For how long the motor has had current through the welded relay since then."""
     standing_s: float = 0.0
     pressed_s: float = 0.0
     """How long the axis stood in its latest run, until that run ended."""
@@ -77,6 +85,16 @@ class AxisCase:
     def deaf_s(self) -> float:
         """How long the box may take to cut the supply of a control box that does not hear."""
         return max(WELDED_S, self.patience_s) if self.deaf else 0.0
+
+    def weld_feeds(self, past_s: float, *, fed: bool, turns: bool) -> None:
+        """What has passed since the look before, while the box did not feed the motor."""
+        self.weld_known = self.weld_known or (not fed and self.weld_shown_s >= SHOWN_S)
+        self.weld_shown_s = self.weld_shown_s + past_s if fed and turns else 0.0
+        self.fed_s = self.fed_s + past_s if fed and self.weld_known else self.fed_s
+
+    def weld_forgotten(self) -> None:
+        """The box feeds the motor itself, the relay is open again, or the program has ended."""
+        self.weld_known, self.weld_shown_s, self.fed_s = False, 0.0, 0.0
 
     def rest(self, *, at_stop: bool) -> None:
         """The box feeds the motor no longer. The time beyond a limit goes on only while the axis stands at its stop.

@@ -1,20 +1,20 @@
 """The box of a drill: the real drivers on simulated chips, the control loop and sessions, in simulated time.
 
-Knows how to build it from a configuration, to run a cycle, to hand bytes to a link, and to end it: properly, as with
+Knows how to build it, to run a cycle, to hand bytes to a link, and to end it: properly, as with
 SIGTERM, or killed. The simulated world and the state folder outlive it. Does not know what is right or wrong.
 """
 
 from __future__ import annotations
 
 import itertools
-import tomllib
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import tomlkit
-
 from benchmarks.drills.browser import Browser
+from benchmarks.drills.card import STATE, Card
+from benchmarks.drills.lanes import KeptLane
 from benchmarks.drills.script import PAGE, Drill
 from benchmarks.drills.sentinel import DrilledSentinel
 from benchmarks.drills.speech import PROTOCOLS
@@ -29,59 +29,45 @@ from rotator.assembly.panel import panel_thread
 from rotator.assembly.sessions import session_maker
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.station import Station
-from rotator.cli.rehearse import simulated
 from rotator.config.links import Link
-from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.exchange.sources import Source
 from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.panel_words import parse_hand
 from rotator.protocols.session import Session
-from rotator.runtime.autosave import CALIBRATIONS_EVERY_S, Autosave
+from rotator.runtime.autosave import Autosave
+from rotator.runtime.card_watch import CardWatch
 from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
+from rotator.runtime.keeping import Keeping
 from rotator.runtime.loop import ControlLoop
 from rotator.store import counts, knobs, latch
 from rotator.store.latch import LatchFile
+from rotator.store.relays import FILE_NAME as RELAYS_NAME
+from rotator.store.relays import RelaysFile
+from rotator.store.tries import FILE_NAME as TRIES_NAME
+from rotator.store.tries import TriesFile
 
 SENTINEL_S = 0.04
 """Seconds after the death of the program until its sentinel has opened the relays (docs/safety.md)."""
 PANEL = Source("panel")
-
-
-def configured(drill: Drill, folder: Path) -> Config:
-    """The shipped configuration with the drill's keys, on a simulated rotor that outlives the program."""
-    values = tomllib.loads(shipped(drill.profile))
-    for table in ("link", "lcd", "panel", "limits"):
-        values.pop(table, None)
-    _merge(values, drill.tables)
-    _merge(
-        values, {"lcd": {"kind": "none"}, "rotor": {"hardware": "sim"}, "state": {"path": str(folder / "state.json")}}
-    )
-    # With a world file the box keeps files of its own and trusts them. The drill itself keeps the world in memory.
-    _merge(values, {"sim": {"world": str(folder / "world.json"), "bus_takes_time": False}})
-    return simulated(parse(tomlkit.dumps(values), drill.profile))
-
-
-def _merge(values: dict[str, Any], more: dict[str, Any]) -> None:
-    for key, value in more.items():
-        if isinstance(value, dict):
-            _merge(values.setdefault(key, {}), value)
-        else:
-            values[key] = value
+LOOKS_S = 1.0
+"""How often the threads that write files look whether something is unwritten."""
+BEGINS_S = 0.05
+"""A new run waits no longer for a card that hangs. In real time it waits for seconds, and nothing moves yet."""
 
 
 class Box:
     """One run of the program. `world`: the simulated rotor that an earlier run has left; None: a new one."""
 
     def __init__(
-        self, drill: Drill, config: Config, folder: Path, clock: SimClock, world: SimRotor | None, *, begun_s: float
+        self, drill: Drill, config: Config, card: Card, clock: SimClock, world: SimRotor | None, *, begun_s: float
     ) -> None:
-        """`begun_s`: when the drill began, on the clock."""
+        """`card`: with the state files. `begun_s`: when the drill began, on the clock."""
         self.config = config
         self._clock = clock
-        self._folder = folder
+        folder, memory = card.folder, card.memory
         self.alive = True
         self.sentinel = DrilledSentinel(clock)
         if world is not None:
@@ -95,22 +81,27 @@ class Box:
             counts=folder / counts.FILE_NAME,
             world=world,
             watch=self.sentinel,
+            write=card.lane(counts.FILE_NAME),
         )
         assert self.station.world is not None
         self.world: SimRotor = self.station.world
-        memory = folder.with_name("memory")
-        memory.mkdir(exist_ok=True)
         learnt, relays = build_learnt(config), build_relays_file(config, memory)
         commissioning = Axis(drill.commissioning) if drill.commissioning else None
-        trusts = relays.begin() if relays else None
+        trusts = relays.begin(BEGINS_S) if relays else None
         kept, tried = LatchFile(folder / latch.FILE_NAME, memory), build_tries_file(config, memory)
         assert tried is not None, "the rotor of a drill outlives its program"
         stopped, tries = kept.load(), tried.load()
         controller = build_controller(
             config, learnt.load(), commissioning, trusts=trusts, tries=tries, latch=stopped, panel=config.panel.fitted
         )
-        self.events = EventWatch(clock)
-        """The watch over the event loop that serves the links; the drill ticks for it."""
+        self.events, self.page_events = EventWatch(clock), EventWatch(clock)
+        """The watches over the event loops that serve the links and the page; the drill ticks for them."""
+        files: list[LatchFile | TriesFile | RelaysFile] = [kept, tried, *([relays] if relays else [])]
+        latches = KeptLane(card.lane(latch.FILE_NAME), kept.save, kept.spare, stopped)
+        vain = KeptLane(card.lane(TRIES_NAME), tried.save, tried.spare, tries)
+        self._lanes: list[KeptLane[Any]] = [latches, vain]
+        if relays:
+            self._lanes.append(KeptLane(card.lane(RELAYS_NAME), relays.save, relays.spare, trusts or {}))
         self.loop = ControlLoop(
             controller,
             self.station.rotor,
@@ -118,19 +109,25 @@ class Box:
             1 / config.control.rate_hz,
             after_good_step=self.station.beat,
             events=self.events,
-            keep_latch=kept.save,  # the thread that writes it takes no simulated time
-            keep_tries=tried.save,
+            page_events=self.page_events,
+            keeping=Keeping(
+                latch=latches.note, tries=vain.note, trusts=self._lanes[-1].note if relays else lambda _trusts: None
+            ),
+            card=CardWatch(lambda: [file.trouble for file in files]),
         )
-        tried.save(tries)
-        self._autosave = Autosave(self.loop, None, build_offsets(config), learnt, relays, tries=tried)
-        self._kept_s = clock()
+        for lane in self._lanes:
+            lane.start()
+        self._relays = relays
+        self._autosave = Autosave(self.loop, None, build_offsets(config), learnt)
+        self._learns, self._knobs = card.lane(STATE), card.lane(knobs.FILE_NAME)
+        self._looked_s = clock()
         self._mount = build_mount(config)
         self._numbers = itertools.count(1)
         self._sessions: dict[str, tuple[Session, Client]] = {}
         self._sources: dict[str, Source] = {}
         """By link or person: the source of its session."""
         self.tracking = DrilledTracking(config, self.loop, self._mount, clock, begun_s)
-        self.panel = self._panel() if config.panel.fitted else None
+        self.panel = self._panel(folder / knobs.FILE_NAME) if config.panel.fitted else None
 
     def cycle(self, *, blind: bool = False) -> None:
         """One turn of the control loop; `blind`: the reading thread hangs."""
@@ -138,11 +135,16 @@ class Box:
             self.loop.act()
         else:
             self.loop.cycle()
+        now_s = self._clock()
         if self.panel:
-            self.panel.cycle(self._clock())
-        if self._clock() - self._kept_s >= CALIBRATIONS_EVERY_S:
-            self._kept_s = self._clock()
-            self._autosave.keep_relays()
+            self.panel.cycle(now_s)
+        if now_s - self._looked_s < LOOKS_S:
+            return
+        self._looked_s = now_s
+        for lane in self._lanes:
+            lane.look(now_s)
+        if self.panel and not self._knobs.busy:
+            self._knobs(partial(self.panel.save, now_s))
 
     def hear(self, who: str, data: bytes) -> list[bytes]:
         """Bytes from a program or a person. They act at once."""
@@ -181,7 +183,9 @@ class Box:
         if self.panel:
             self.panel.dark()
         self.station.close()
-        self._autosave.close()
+        if relays := self._relays:
+            self._lanes[-1].end(partial(relays.save, ending=True))
+        self._learns(self._autosave.close)
         self.alive = False
 
     def die(self) -> None:
@@ -209,7 +213,7 @@ class Box:
         calibrates = {"may_calibrate": True} if who == "gs232a" else {}
         return session_maker(Link.model_validate({"protocol": PROTOCOLS[who], **place, **calibrates}), client)
 
-    def _panel(self) -> PanelThread:
+    def _panel(self, file: Path) -> PanelThread:
         parts = self.station.panel
         assert parts is not None
         return panel_thread(
@@ -218,7 +222,7 @@ class Box:
             lambda: self.loop.status,
             lambda order: self.loop.post(PANEL, order),
             self._clock,
-            knobs=self._folder / knobs.FILE_NAME,
+            knobs=file,
             pulses=self.station.rotor.closed_contacts,
         )
 

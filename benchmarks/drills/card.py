@@ -1,24 +1,112 @@
-"""The memory card of the box of a drill, which refuses to be written for a while, as a full or read-only one does.
+"""The memory card of the box of a drill: it refuses to be written, as a full or read-only one does; or it hangs.
 
-Knows the names of the files in its state folder, and how a file is replaced. What can be read stays readable.
+Knows the names of the files in its state folder, and how a file is replaced. What can be read stays readable. A write
+that a hanging card has begun returns when the hang ends, with an error; in `lanes` it waits in a thread.
 """
 
 from __future__ import annotations
 
+import os
+import shutil
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+from benchmarks.drills.lanes import LOOKS_S, Lane
 from rotator.store import counts, knobs, latch, relays, tries
+from rotator.store.hanging import writes
 from rotator.store.whole import NEW
 
-NAMES = ("state.json", counts.FILE_NAME, knobs.FILE_NAME, latch.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME)
+STATE = "state.json"
+NAMES = (STATE, counts.FILE_NAME, knobs.FILE_NAME, latch.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME)
+WORKS, REFUSES, REFUSES_LATER, HANGS = 0.0, 1.0, 2.0, 3.0
+"""The numbers of an event `card`. `REFUSES_LATER`: it refuses from the next end of the program on, so that the next run
+finds the content from before."""
 
 
-def refuse(folder: Path, *, refuses: bool) -> None:
-    """From now on no file in the folder can be replaced; `refuses` False: every file can again."""
-    for name in NAMES:
-        # A folder takes the name under which the new content would first be written.
-        where = folder / (name + NEW)
-        if refuses:
-            where.mkdir(exist_ok=True)
-        elif where.is_dir():
-            where.rmdir()
+class Card:
+    """`folder`: with the state files. `memory`: the folder that stands for the service's memory."""
+
+    def __init__(self, folder: Path, memory: Path) -> None:
+        self.folder, self.memory = folder, memory
+        self._state = WORKS
+        self._lanes: list[Lane] = []
+
+    @property
+    def hangs(self) -> bool:
+        return self._state == HANGS
+
+    @property
+    def waited_for(self) -> bool:
+        """Whether a write is under way that does not return."""
+        return any(lane.busy for lane in self._lanes)
+
+    def lane(self, name: str) -> Lane:
+        """The thread of this run of the program that writes this file."""
+        self._lanes.append(Lane(self.folder / (name + NEW), lambda: self.hangs))
+        return self._lanes[-1]
+
+    def become(self, state: float) -> None:
+        """From now on it works, refuses, or hangs; or refuses from the next end of the program on."""
+        if state == self._state:
+            return
+        before, self._state = self._state, state
+        if before == HANGS:
+            self._let_go()
+        for name in NAMES:
+            where = self.folder / (name + NEW)
+            if before == REFUSES and where.is_dir():
+                where.rmdir()
+            # A folder takes the name under which the new content would first be written; a pipe that no program reads
+            # keeps its writer waiting.
+            if state == REFUSES:
+                where.mkdir(exist_ok=True)
+            elif state == HANGS:
+                where.unlink(missing_ok=True)
+                os.mkfifo(where)
+
+    @contextmanager
+    def program_ends(self) -> Iterator[None]:
+        """Within it the program ends: what its threads still wait for is never written. A new run begins after it."""
+        kept = [(folder, folder.with_name(f"kept-{folder.name}")) for folder in (self.folder, self.memory)]
+        for folder, copy in kept:
+            shutil.copytree(folder, copy, ignore=_pipes)
+        yield
+        state, self._state = self._state, WORKS
+        if state == HANGS:
+            self._let_go()
+        self._lanes.clear()
+        for folder, copy in kept:
+            shutil.rmtree(folder)
+            copy.rename(folder)
+        if state == HANGS:
+            self.become(HANGS)
+        else:
+            self._state = state
+
+    def lanes_end(self) -> None:
+        """The program has ended, and its threads with it."""
+        self._lanes.clear()
+
+    def begins_to_refuse(self) -> None:
+        """The program has ended."""
+        if self._state == REFUSES_LATER:
+            self.become(REFUSES)
+
+    def _let_go(self) -> None:
+        """End the hang: every write that is under way fails."""
+        pipes = [self.folder / (name + NEW) for name in NAMES]
+        ends = [os.open(pipe, os.O_RDONLY | os.O_NONBLOCK) for pipe in pipes if pipe.is_fifo()]
+        for lane in self._lanes:
+            lane.join()
+        while any(path.parent == self.folder.resolve() for path in writes().values()):
+            time.sleep(LOOKS_S)  # the first write of a run has a thread of its own
+        for end in ends:
+            os.close(end)
+        for pipe in pipes:
+            pipe.unlink(missing_ok=True)
+
+
+def _pipes(folder: str, names: list[str]) -> list[str]:
+    return [name for name in names if Path(folder, name).is_fifo()]

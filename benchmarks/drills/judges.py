@@ -83,6 +83,8 @@ class Judges:
         if stops_s != (self._acknowledged_s, self._ended_s):
             self._acknowledged_s, self._ended_s = stops_s
             for truth, case in zip(axes, self.cases, strict=True):
+                if self._orders.ended_at_s == now_s:
+                    case.weld_forgotten()
                 case.beyond_s = case.standing_s = 0.0  # the next order is a new try, also if the current never stopped
                 case.winds_down_s = now_s if truth.relayed else now_s + truth.coasts_s + START_S
         if self._orders.stops.released_s != self._released_s:
@@ -107,6 +109,7 @@ class Judges:
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
             self._welded(truth, case)
+            self._fed(truth, case)
             if not truth.welded or (truth.coil and truth.coil == truth.power):
                 case.ran_on_s = 0.0
             elif not truth.stands:
@@ -158,6 +161,16 @@ class Judges:
         case.welded_s += self._past_s
         if case.welded_s > max(WELDED_S, case.patience_s) + LOOK_S:
             self._accuse(AFTER_STOP, truth, f"by a welded relay for {case.welded_s:.2f} s, with a master")
+
+    def _fed(self, truth: AxisTruth, case: AxisCase) -> None:
+        """Accuse a supply that is switched on again and again, for the other axis, while a known weld feeds a motor."""
+        if truth.coil or not truth.welded or not self._master or case.blind or case.counts:
+            case.weld_forgotten()
+            return
+        turns = abs(truth.speed_dps) >= GOING_SHARE * truth.full_dps
+        case.weld_feeds(self._past_s, fed=truth.power != 0, turns=turns)
+        if case.fed_s > max(WELDED_S, case.patience_s) + LOOK_S:
+            self._accuse(STANDING_CURRENT, truth, f"through a welded relay that had shown, for {case.fed_s:.2f} s")
 
     def _beyond(self, truth: AxisTruth, case: AxisCase) -> None:
         if case.astray:

@@ -130,6 +130,22 @@ class Orders:
         if not self.stops.storm_under_way and self._panel.mode == "auto" and not elsewhere:
             self._forget(now_s)
 
+    def page_lost(self, now_s: float) -> None:
+        """No stop could arrive from the page: motion that was ordered there ends."""
+        if not self.stops.latched:
+            self.button.let_go(now_s)
+            for axis in AXES:
+                self._drop(axis, now_s, (PAGE, BUTTON, f"{PAGE} {AT_END}", f"{BUTTON} {AT_END}"))
+
+    def _drop(self, axis: str, now_s: float, senders: tuple[str, ...]) -> None:
+        """The orders of these senders end."""
+        goals = self.axes[axis].goals
+        ended = [goals.pop(sender, None) for sender in senders]
+        if any(ended):
+            self.axes[axis].ended_s = now_s
+            self.sure = False
+            self._may_idle(now_s)
+
     def expire(self, now_s: float) -> None:
         for axis, orders in self.axes.items():
             orders.expire(now_s)

@@ -1,6 +1,7 @@
 """Plays a drill: the box in simulated time, the events at their moments, and the judges after every cycle.
 
-Knows time. Does not know how an event changes a part of the world, nor what the judges forbid.
+Knows time, and what ends and begins the program. Does not know how an event changes the world (`befall`), nor what the
+judges forbid.
 """
 
 from __future__ import annotations
@@ -8,18 +9,20 @@ from __future__ import annotations
 import logging
 import math
 import random
-import shutil
 import tempfile
 import traceback
 from collections import deque
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from benchmarks.drills.box import Box, configured
-from benchmarks.drills.card import refuse
+from benchmarks.drills.befall import WorldEvents
+from benchmarks.drills.box import Box
+from benchmarks.drills.card import WORKS, Card
+from benchmarks.drills.configured import configured
+from benchmarks.drills.event_loops import EventLoop
 from benchmarks.drills.judges import Judges, Violation
-from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, spoil
-from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
+from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse
+from benchmarks.drills.script import CLOCK, PAGE, PANEL, PROGRAM, WORLD, Drill, Event
 from benchmarks.drills.sectors import Sectors
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.speech import parts, said
@@ -31,13 +34,6 @@ STARTED_S = 1000.0
 STEP_S = 0.05
 """How often the world is looked at while no control cycle comes."""
 FAILS = "the program ends with an exception, or its sentinel kills it"
-CARD_ENDS_LATER = 2.0
-"""The number of an event `card`: the card refuses from the next end of the program on, so the next run finds its older
-content."""
-STALLED_S = 1.0
-"""If their event loop stands still for longer than this, the orders of links end."""
-OUTSIDE = ("zero", "full")
-"""Kinds of bad readings that no healthy sensor can show."""
 MOST_ACTS_S = 0.01
 """Orders within this time are taken together, as by the real control thread, which takes a moment to wake."""
 
@@ -66,15 +62,17 @@ def play(drill: Drill) -> Outcome:
 class _Play:
     def __init__(self, drill: Drill, folder: Path) -> None:
         self._drill = drill
-        self._folder = folder / "now"
-        self._folder.mkdir()
+        now, memory = folder / "now", folder / "memory"
+        now.mkdir()
+        memory.mkdir()
+        self._card = Card(now, memory)
         self._clock = SimClock(STARTED_S)
         self._words = Words(lambda: self._now_s)
         log = logging.getLogger()
         log.handlers, log.level = [self._words], logging.WARNING
         self._chance = random.Random(drill.seed)
-        self._config = configured(drill, self._folder)
-        self._box = Box(drill, self._config, self._folder, self._clock, None, begun_s=STARTED_S)
+        self._config = configured(drill, now)
+        self._box = Box(drill, self._config, self._card, self._clock, None, begun_s=STARTED_S)
         self._world = World(self._box.world, self._clock)
         self._troubles = Troubles(self._box.world, self._clock, drill.seed)
         self._cases = axis_cases(self._config, self._world.axes)
@@ -84,18 +82,19 @@ class _Play:
         self._silence = Silence(self._words, self._cases)
         self._sectors = Sectors(self._config, self._cases)
         self._judges.goes_round = self._orders.goes_round = bool(self._sectors)
+        self._world_events = WorldEvents(
+            self._config,
+            self._cases,
+            judges=self._judges,
+            silence=self._silence,
+            troubles=self._troubles,
+            card=self._card,
+        )
         self._period_s = 1 / self._config.control.rate_hz
-        self._card_ends = False
-        """The card refuses from the next end of the program on."""
         self._blind = False
         """The reading thread hangs."""
-        self._stand: frozenset[str] = frozenset()
-        """The axes whose readings stand still."""
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
-        self._stalled_s: tuple[float, float] | None = None
-        """The event loop of the links stands still, from when to when; None: it runs."""
-        self._unheard: list[Event] = []
-        """The events that links and people have sent to that event loop meanwhile."""
+        self._links, self._page = EventLoop(), EventLoop()
         self._acted_s = -1.0
         self._acknowledged_s = 0.0
         self._back_s = 0.0
@@ -117,6 +116,7 @@ class _Play:
         outcome.relay_starts = self._world.relay_starts or 0
         outcome.said = [f"{at_s:9.2f} s  {line}" for at_s, line in self._words.lines]
         if self._box.alive:
+            self._card.become(WORKS)
             self._box.end()
         return outcome
 
@@ -171,13 +171,14 @@ class _Play:
             self._acknowledged_s = self._orders.stops.acknowledged_s
             self._silence.acknowledged()
         elsewhere = self._judges.elsewhere(self._world.axes) if self._orders.sure else frozenset()
+        self._world_events.look(now_s)
         status = self._box.loop.status
         self._silence.look(now_s, self._world.axes, status, ordered=ordered, there=there, elsewhere=elsewhere)
 
     def _happen(self, event: Event, late_s: float) -> None:
         match event.who:
             case str(who) if who == WORLD:
-                self._befall(event)
+                self._world_events.befall(event)
             case str(who) if who == CLOCK:
                 self._be_late(event)
             case str(who) if who == PROGRAM:
@@ -190,23 +191,18 @@ class _Play:
                 self._hear(event)
 
     def _tick(self) -> None:
-        """The event loop ticks, or stands still. When it runs again, it gets the events that it has missed."""
-        if self._stalled_s is None:
-            self._box.events.tick()
-            return
-        since_s, until_s = self._stalled_s
-        if self._now_s > since_s + STALLED_S:
+        """The event loops tick, or stand still."""
+        if self._links.lost(self._now_s):
             self._orders.links_lost(self._now_s)
-        if self._now_s >= until_s:
-            self._stalled_s, unheard, self._unheard = None, self._unheard, []
-            self._box.events.tick()
-            for event in unheard:
-                self._hear(replace(event, at_s=self._now_s))
+        if self._page.lost(self._now_s):
+            self._orders.page_lost(self._now_s)
+        late = self._links.tick(self._now_s, self._box.events), self._page.tick(self._now_s, self._box.page_events)
+        for event in (*late[0], *late[1]):
+            self._hear(replace(event, at_s=self._now_s))
 
     def _hear(self, event: Event) -> None:
         """Bytes of a link or a person: they wake the control thread, as any order does."""
-        if self._stalled_s is not None:
-            self._unheard.append(event)
+        if not (self._page if event.who == PAGE else self._links).takes(event):
             return
         if parts(event) != [event]:
             for part in parts(event):
@@ -239,33 +235,6 @@ class _Play:
         self._cases[place].slack_deg += abs(event.number(1))
         return replace(event, args=(event.text(0), angle_deg))
 
-    def _befall(self, event: Event) -> None:
-        now_s = self._now_s
-        if event.what == "card":
-            self._card_ends = event.number(0) == CARD_ENDS_LATER
-            if not self._card_ends:
-                refuse(self._folder, refuses=bool(event.number(0)))
-            return
-        spoil(self._config, self._cases, self._judges, event)
-        self._troubles.begin(event.what, event.args)
-        if event.what == "fault":
-            self._silence.begin(event.text(0), now_s)
-        elif event.what == "clear":
-            self._silence.end(event.text(0))
-        elif event.what == "weld":
-            self._silence.begin(f"{event.text(0)}-relay-welded", now_s)
-        elif event.what == "unweld":
-            self._silence.end(f"{event.text(0)}-relay-welded")
-        elif event.what in ("every", "stands"):
-            self._silence.end("every")
-            if event.what == "stands":
-                self._silence.end("pot-crackles")
-                self._stand = self._stand | {event.text(0)} if event.number(1) else self._stand - {event.text(0)}
-            elif event.text(0) in self._stand:
-                pass  # its reading stands still, so a bad reading does not show
-            elif self._config.rotor.type == "relay-pot" and event.number(1) and event.text(2) in OUTSIDE:
-                self._silence.begin(f"{event.text(0)}-every:{event.number(1):.0f}", now_s)
-
     def _be_late(self, event: Event) -> None:
         seconds = event.number(0)
         match event.what:
@@ -275,8 +244,9 @@ class _Play:
                 self._blind, self._blind_until_s = True, self._now_s + seconds
                 self._silence.begin("hung", self._now_s)
             case "stalled":
-                self._box.events.tick()
-                self._stalled_s = self._now_s, self._now_s + seconds
+                self._links.stall(self._now_s, seconds, self._box.events)
+            case "page-stalled":
+                self._page.stall(self._now_s, seconds, self._box.page_events)
             case "plans":
                 self._box.tracking.planner.takes_s = seconds
             case "plans-fail":
@@ -290,20 +260,20 @@ class _Play:
         """The program ends, and starts again after the seconds that the event gives. Only the files in its folder
         remain."""
         if event.what == "kill":
-            kept = self._folder.with_name("kept")
-            shutil.copytree(self._folder, kept)
-            self._box.die()
-            shutil.rmtree(self._folder)
-            kept.rename(self._folder)
+            with self._card.program_ends():
+                self._box.die()
+        elif self._card.hangs:
+            with self._card.program_ends():
+                self._box.end()
         else:
             self._box.end()
-        if self._card_ends:
-            refuse(self._folder, refuses=True)
-            self._card_ends = False
-        self._stalled_s, self._unheard = None, []
+            self._card.lanes_end()
+        self._card.begins_to_refuse()
+        for loop in (self._links, self._page):
+            loop.begin_anew()
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)
-        self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world, begun_s=STARTED_S)
+        self._box = Box(self._drill, self._config, self._card, self._clock, self._box.world, begun_s=STARTED_S)
         self._back_s = self._now_s
         begins_anew(self._config, self._cases, self._world.axes)
 

@@ -111,6 +111,7 @@ SEEN: Mapping[str, Rule] = {
     **dict.fromkeys(FAULT_CODES, Rule(Shows.AT_ONCE, heals=True)),
     # troubles of the drills themselves
     "hung": Rule(Shows.AT_ONCE, shared=True),
+    "card-hangs": Rule(Shows.AT_ONCE, shared=True),
     "every": BAD,
 }
 RIDDEN_OUT = "one moment, that is ridden out"

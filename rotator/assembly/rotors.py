@@ -16,10 +16,12 @@ from rotator.assembly.panel import limit_switches
 from rotator.assembly.sensors import sensor_chip
 from rotator.assembly.settings import build_offsets
 from rotator.config.model import Config
+from rotator.rotors.counts_writer import Later, at_once
 
 
 class Assembly:
-    """`in_step`: time is simulated. `counts`: the file for counted axes; None: there is none.
+    """`in_step`: time is simulated. `counts`: the file for counted axes; None: there is none. `write`: runs what writes
+    it, where time is simulated.
 
     `start_deg`: where a simulated axis stands at first, on the rotor's own scale. `watch`: what opens the relays when
     the program no longer renews their leases. Raises HardwareError.
@@ -34,6 +36,7 @@ class Assembly:
         start_deg: Callable[[Axis], float],
         counts: Path | None,
         in_step: bool,
+        write: Later = at_once,
     ) -> None:
         self.config = config
         self.board = board
@@ -41,6 +44,7 @@ class Assembly:
         self.start_deg = start_deg
         self.counts = counts
         self.in_step = in_step
+        self.write: Later | None = write if in_step else None
         self.shift = build_offsets(config)
         self.ends = limit_switches(config, board)
         self._adc: Converter | None = None

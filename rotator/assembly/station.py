@@ -27,6 +27,7 @@ from rotator.assembly.simulation import SimulatedStation
 from rotator.config.model import Config
 from rotator.exchange.orders import Order
 from rotator.panel.thread import PanelParts, PanelThread
+from rotator.rotors.counts_writer import Later, at_once
 from rotator.rotors.port import AddAlarm, Rotor
 from rotator.runtime.loop import ControlLoop
 from rotator.store import counts as counts_file
@@ -51,7 +52,8 @@ class Station:
     `add_alarm`: that of the simulated clock, where time is simulated; the rotor has begun then. In real time the
     caller starts the rotor. `counts`: the file that keeps counted axes; None: they begin where the simulated rotor is.
     `world`: a simulated rotor that has outlived an earlier station, and goes on; None: it is made from the file.
-    `watch`: hears the leases of the relays in place of a sentinel, where time is simulated.
+    `watch`: hears the leases of the relays in place of a sentinel, where time is simulated; `write` runs what writes
+    `counts` there.
     """
 
     rotor: Rotor
@@ -75,6 +77,7 @@ class Station:
         counts: Path | None = None,
         world: SimRotor | None = None,
         watch: LeaseWatch | None = None,
+        write: Later = at_once,
     ) -> None:
         self._config = config
         self._sleep = sleep
@@ -99,6 +102,7 @@ class Station:
                 start_deg=simulated.start_deg,
                 counts=counts,
                 in_step=add_alarm is not None,
+                write=write,
             )
             self.rotor = builder(config.rotor.type).build(parts, outputs)
             self.panel = panel_parts(config, self.board) if config.panel.fitted else None

@@ -105,9 +105,10 @@ class App:
             *(Part.quick(link.wire.name, link.close) for link in self.links),
             *(Part.blocking(name, thread.stop) for name, thread in threads.items() if thread),
             Part.blocking("closing the hardware", self.station.close),
-            Part.blocking("the last autosave", built.autosave.close),
             Part.blocking("keeping a stop", built.remembered.latch.close),
             Part.blocking("keeping vain tries", built.remembered.tries.close),
+            Part.blocking("keeping doubts about relays", lambda: built.remembered.end_properly(built.loop.status)),
+            Part.blocking("the last autosave", built.autosave.close),
             Part.quick("the service manager", built.service_manager.close),
         ]
 
@@ -117,9 +118,7 @@ class App:
         if self.station.sentinel and self.station.lines:
             built.service_manager.leave(RELAY_LINES, self.station.lines.to_text())
             self._tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
-        built.autosave.keep_relays()
-        built.remembered.latch.start()
-        built.remembered.tries.start()
+        built.remembered.start()
         if (latched := self.loop.status.latch) is not None:
             log.warning("%s", held_by(latched.by, storm=latched.storm))
         if self._anew.holder is not None:

@@ -111,8 +111,8 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         after_good_step=sign_of_life,
         events=events,
         page_events=page_events,
-        keep_latch=before.latch.note,
-        keep_tries=before.note_tries,
+        keeping=before.keeping,
+        card=before.card,
     )
     tracking = build_tracking(config, loop, mount)
     pairings = build_pairings(config, tracking.clock_is_known)
@@ -164,9 +164,7 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         remembered=before,
         loop=loop,
         engine=Engine(loop, station.rotor),
-        autosave=Autosave(
-            loop, path, build_offsets(config), before.learnt, before.relays_file, tries=before.tries_file
-        ),
+        autosave=Autosave(loop, path, build_offsets(config), before.learnt),
         tracking=tracking,
         fetching=fetching,
         elements_server=elements_server,

@@ -187,6 +187,8 @@ class Status:
     """The planned pass that is flown; None: no planned pass."""
     notices: tuple[str, ...] = ()
     """The sources whose orders have no effect, and why. A trouble keeps the same text as long as it lasts."""
+    unkept: Notice | None = None
+    """Why the card does not take what the box must not forget: also one of `notices`. None: it does."""
     cycle_late_s: float = 0.0
     """Seconds by which the last control cycle was late."""
 

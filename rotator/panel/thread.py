@@ -1,8 +1,9 @@
 """The panel's threads: read switches and knobs, pass on the panel's orders, show its lamps and meters.
 
 Knows when to read and to write. The panel decides, and `lights` knows the outputs. The switches have a thread that uses
-no bus, so a bus that hangs does not disable the stop button. Knobs and outputs have a second thread. A stop button that
-cannot be read counts as pressed; a knob or a jog switch without a recent reading counts as not fitted.
+no bus, so a bus that hangs does not disable the stop button. Knobs and outputs have a second thread, the knobs' file a
+third one: no switch waits for a card. A stop button that cannot be read counts as pressed; a knob or a jog switch
+without a recent reading counts as not fitted.
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ from rotator.panel.panel import Panel, PanelInputs, PanelOutput
 
 log = logging.getLogger(__name__)
 
-PANEL_THREADS = ("panel", "panel-bus")
-"""The names of the two threads: one for the switches, one for the chips on a bus."""
-PERIOD_S = 0.05
+PANEL_THREADS = ("panel", "panel-bus", "panel-file")
+"""The names of the threads: for the switches, for the chips on a bus, for the knobs' file."""
+PERIOD_S, FILE_PERIOD_S = 0.05, 1.0
 STALE_S = 0.25
 """Seconds: an older reading does not count, so that a jog ends when the bus hangs."""
 RETRY_S = 0.5
@@ -89,8 +90,13 @@ class PanelThread:
         self._lights = Lights(parts.outputs, parts.lights) if parts.outputs else None
         self._stopping = threading.Event()
         self._threads = [
-            threading.Thread(target=self._run, args=(work,), name=name, daemon=True)
-            for name, work in zip(PANEL_THREADS, (self.step, self.attend), strict=True)
+            threading.Thread(target=self._run, args=(work, period_s), name=name, daemon=True)
+            for name, work, period_s in zip(
+                PANEL_THREADS,
+                (self.step, self.attend, self.save),
+                (PERIOD_S, PERIOD_S, FILE_PERIOD_S),
+                strict=True,
+            )
         ]
 
     def data_received(self) -> None:
@@ -108,16 +114,17 @@ class PanelThread:
         for thread in self._threads:
             if thread.is_alive():
                 thread.join(timeout=JOIN_S)
-        if not any(thread.is_alive() for thread in self._threads):  # a thread that hangs holds the bus
+        _, on_bus, on_file = self._threads
+        if not on_file.is_alive():
             self.save(math.inf)
+        if not on_bus.is_alive():  # a thread that hangs holds the bus
             self.dark()
 
     def cycle(self, now_s: float) -> None:
-        """Read, step and show once: for simulated time, in one thread."""
+        """Read, step and show once: for simulated time, in one thread. Saves nothing."""
         self.read(now_s)
         self.step(now_s)
         self.show(now_s)
-        self.save(now_s)
 
     # --- the thread that uses no bus
 
@@ -169,10 +176,9 @@ class PanelThread:
     # --- the thread on the bus
 
     def attend(self, now_s: float) -> None:
-        """Read the knobs and the jog switches, set lamps and meters, and keep new full scales."""
+        """Read the knobs and the jog switches, and set lamps and meters."""
         self.read(now_s)
         self.show(now_s)
-        self.save(now_s)
 
     def read(self, now_s: float) -> None:
         """Read every sensor. All are on one chip, so a failure of one counts for all."""
@@ -200,6 +206,13 @@ class PanelThread:
             return
         self._trouble(LAMPS, "")
 
+    def dark(self) -> None:
+        """Switch each lamp and meter off. If their chip does not answer, they stay as they are."""
+        if self._lights is not None:
+            self._lights.dark()
+
+    # --- the thread of the file
+
     def save(self, now_s: float) -> None:
         """Save new full scales of the knobs. A failed write is tried again."""
         full_scales = self._full_scales
@@ -209,11 +222,6 @@ class PanelThread:
             self._kept = full_scales
         else:
             self._keep_again_s = now_s + AGAIN_S
-
-    def dark(self) -> None:
-        """Switch each lamp and meter off. If their chip does not answer, they stay as they are."""
-        if self._lights is not None:
-            self._lights.dark()
 
     def _trouble(self, what: str, text: str) -> None:
         """Log a fault of a part once when it begins and once when it ends."""
@@ -225,10 +233,10 @@ class PanelThread:
         else:
             log.warning("panel: %s: answers again", what)
 
-    def _run(self, work: Callable[[float], None]) -> None:
+    def _run(self, work: Callable[[float], None], period_s: float) -> None:
         try:
             while not self._stopping.is_set():
-                due_s = self._clock() + PERIOD_S
+                due_s = self._clock() + period_s
                 work(self._clock())
                 self._stopping.wait(due_s - self._clock())
         except Exception as failure:

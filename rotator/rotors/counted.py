@@ -22,13 +22,12 @@ from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor
 from rotator.store import counts
+from rotator.store.hanging import HANGS, Hanging
 
 log = logging.getLogger(__name__)
 
 KEEP_EVERY_S = 0.5
 """Seconds between two reports to the counts file: a resting axis, or a lost count. The file decides when to write."""
-HANGS_S = 3.0
-"""A mark that takes longer to be written is a fault: the card hangs, and the motor waits for it."""
 
 
 class CountedAxis:
@@ -64,8 +63,7 @@ class CountedAxis:
         self._moved = False
         """Whether it has moved since its last angle at rest was reported."""
         self._reported_lost = False
-        self._waits_s: float | None = None
-        """Since when its motor waits for the mark in the file; None: it does not."""
+        self._hanging: Hanging[int] = Hanging()
 
     def begin(self, kept: counts.Place) -> None:
         """Start with the count that the last run stored."""
@@ -158,13 +156,8 @@ class CountedAxis:
 
     def _write_failure(self, counts_writer: CountsWriter) -> str:
         """Why the file does not mark the axis as moving; empty: it does, or will soon."""
-        now_s = self._clock()
-        if not counts_writer.waits(self._axis):
-            self._waits_s = None
-        elif self._waits_s is None:
-            self._waits_s = now_s
-        elif now_s - self._waits_s > HANGS_S:
-            return "its file is not written: the card hangs"
+        if self._hanging.look(counts_writer.awaited(self._axis), self._clock()):
+            return f"its file is not written: {HANGS}"
         return counts_writer.trouble(self._axis)
 
     def _keep(self, angle_deg: float) -> None:

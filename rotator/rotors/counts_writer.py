@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from enum import Enum
+from queue import SimpleQueue
 
 from hw.ports import Axis
 from rotator.store.counts import CountsFile, Place
 
 COUNTS_THREAD = "counts"
-"""The writing thread's name begins with this."""
+"""The writing thread's name."""
+CLOSES_S = 2.0
+"""The end of the program waits for this time at most: a card may hang."""
 
 Later = Callable[[Callable[[], None]], object]
 """Runs a job soon, one job after the other."""
@@ -35,6 +37,27 @@ class Mark(Enum):
     REFUSED = "the mark could not be written"
 
 
+class _Jobs:
+    """A thread that does jobs one after the other, until `end`."""
+
+    def __init__(self) -> None:
+        self._jobs: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
+        self._thread = threading.Thread(target=self._run, name=COUNTS_THREAD, daemon=True)
+        self._thread.start()
+
+    def __call__(self, job: Callable[[], None]) -> None:
+        self._jobs.put(job)
+
+    def end(self) -> None:
+        """Do what has been asked, and end. Returns after a while, also while a job hangs."""
+        self._jobs.put(None)
+        self._thread.join(CLOSES_S)
+
+    def _run(self) -> None:
+        while (job := self._jobs.get()) is not None:
+            job()
+
+
 class CountsWriter:
     """`later` runs the writing jobs; None: the writer starts a thread for them, which `close` ends.
 
@@ -44,8 +67,8 @@ class CountsWriter:
 
     def __init__(self, file: CountsFile, later: Later | None = None) -> None:
         self._file = file
-        self._pool = ThreadPoolExecutor(1, COUNTS_THREAD) if later is None else None
-        self._run_later: Later = self._pool.submit if self._pool else later or at_once
+        self._thread = _Jobs() if later is None else None
+        self._run_later: Later = self._thread or later or at_once
         self._marks = dict.fromkeys(Axis, Mark.NONE)
         self._requests = dict.fromkeys(Axis, 0)
         """The number of the latest request for a mark. The result of an older request is ignored, and so is one that a
@@ -73,9 +96,9 @@ class CountsWriter:
         """Why the motor may not start; empty when it may start now or soon."""
         return self._file.trouble if self._marks[axis] is Mark.REFUSED else ""
 
-    def waits(self, axis: Axis) -> bool:
-        """Whether the mark is still being written."""
-        return self._marks[axis] is Mark.ASKED
+    def awaited(self, axis: Axis) -> list[int]:
+        """The number of the mark that is still being written, if there is one."""
+        return [self._requests[axis]] if self._marks[axis] is Mark.ASKED else []
 
     def rests(self, now_s: float, axis: Axis, angle_deg: float) -> None:
         """The axis stands at this angle on the rotor's own scale, and its count is right."""
@@ -94,13 +117,16 @@ class CountsWriter:
             self._later(lambda: self._file.home(axis, angle_deg))
 
     def close(self) -> None:
-        """Write the angle of each axis that stands, and end the thread. May be called twice."""
+        """Write the angle of each axis that stands, and end the thread; do not wait for a card that hangs.
+
+        May be called twice.
+        """
         with self._lock:
             if not self._closed:
                 self._run_later(self._file.close)
             self._closed = True
-        if self._pool:
-            self._pool.shutdown(wait=True)
+        if self._thread:
+            self._thread.end()
 
     def _later(self, job: Callable[[], None]) -> None:
         with self._lock:

@@ -12,16 +12,17 @@ from dataclasses import replace
 
 from hw.ports import Axis, HardwareError
 from rotator.control.controller import Controller
-from rotator.exchange.motor import Tries
 from rotator.exchange.orders import Order, Stop
 from rotator.exchange.sources import PAGE, Source
-from rotator.exchange.status import Latch, Status
+from rotator.exchange.status import Status
 from rotator.rotors.port import Rotor
 from rotator.runtime.bell import Bell
+from rotator.runtime.card_watch import CardWatch
 from rotator.runtime.errands import Errands
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
 from rotator.runtime.journal import Journal
+from rotator.runtime.keeping import Keeping
 from rotator.runtime.sensor_thread import SensorThread
 
 log = logging.getLogger(__name__)
@@ -53,20 +54,19 @@ class ControlLoop:
         after_good_step: Callable[[], None] = lambda: None,
         events: EventWatch | None = None,
         page_events: EventWatch | None = None,
-        keep_latch: Callable[[Latch | None], object] = lambda _latch: None,
-        keep_tries: Callable[[dict[Axis, Tries]], object] = lambda _tries: None,
+        keeping: Keeping | None = None,
+        card: CardWatch | None = None,
     ) -> None:
         """`events`: the watch over the event loop that serves the links; None: there are no links.
 
         `page_events`: the same for the page.
 
-        `keep_latch` gets each latched stop and each release, `keep_tries` the runs in which a motor did not turn. Both
-        are called in the control thread and must not wait.
+        `keeping` gets what must outlive the program; `card` says whether the card takes it.
         """
         self._controller = controller
         self._after_good_step = after_good_step
         self._events, self._page_events = events, page_events
-        self._keep_latch, self._keep_tries = keep_latch, keep_tries
+        self._keeping, self._card = keeping or Keeping(), card or CardWatch()
         self._rotor, self._errands = rotor, Errands(rotor)
         self._clock = clock
         self._period_s = period_s
@@ -78,13 +78,11 @@ class ControlLoop:
         self._stopping = False
         self._failure: Exception | None = None
         """The bug that ended another thread. Without that thread nothing may move."""
-        self.unkept: tuple[str, ...] = ()
-        """Sentences for a person about knowledge that cannot be written to its file. `Autosave` sets them."""
         self._late_s = 0.0
         self._supply_cut = self._links_lost = self._page_lost = False
         self.status: Status = controller.status(clock())
         """The latest status. Each step replaces it whole; a status never changes."""
-        self._tries = _tries(self.status)
+        self._keeping.look(self.status)
 
     def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
         """Hand over an order. It takes effect at once, not in the next cycle. May be called from any thread.
@@ -135,13 +133,11 @@ class ControlLoop:
                 self._journal.note(DRIVES[axis], str(fault))
         self._controller.note_driven(now_s, driven)
         self.status = self._controller.status(now_s, self._late_s)
-        if more := self.unkept + self._errands.notices(now_s):
-            self.status = replace(self.status, notices=self.status.notices + more)
-        if self.status.latch != before.latch:
-            self._keep_latch(self.status.latch)
-        if (tries := _tries(self.status)) != self._tries:
-            self._tries = tries
-            self._keep_tries(tries)
+        unkept, failed = self._card.look(now_s), self._errands.notices(now_s)
+        if unkept or failed:
+            more = (unkept.text, *failed) if unkept else failed
+            self.status = replace(self.status, notices=self.status.notices + more, unkept=unkept)
+        self._keeping.look(self.status)
         self._switch_supply()
         self._log(before)
         self._sign_of_life()
@@ -247,7 +243,3 @@ class ControlLoop:
             self._journal.note(HEARTBEAT, "")
         except HardwareError as fault:
             self._journal.note(HEARTBEAT, str(fault))
-
-
-def _tries(status: Status) -> dict[Axis, Tries]:
-    return {Axis.AZIMUTH: status.azimuth.tries, Axis.ELEVATION: status.elevation.tries}

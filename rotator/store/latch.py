@@ -60,9 +60,22 @@ class LatchFile:
         """Write it, unless the file already has it: a repeated stop is the same stop. False: the write failed."""
         if self._kept is _kind(latch):
             return True
-        done = self._file.save({"by": latch.by if latch else "", "storm": latch is not None and latch.storm})
+        done = self._file.save(_content(latch))
         self._kept = _kind(latch) if done else Kept.UNKNOWN
         return done
+
+    def spare(self, latch: Latch | None) -> None:
+        """Note it in memory, while another thread still waits for the card. May be called from any thread."""
+        self._file.note(_content(latch))
+
+    @property
+    def trouble(self) -> str:
+        """Why the card refused the last change; empty: it did not."""
+        return self._file.trouble
+
+
+def _content(latch: Latch | None) -> dict[str, object]:
+    return {"by": latch.by if latch else "", "storm": latch is not None and latch.storm}
 
 
 def _kind(latch: Latch | None) -> Kept:

@@ -4,11 +4,13 @@ Knows the file's form, and what the end of a program leaves uncertain. Does not 
 the program runs the file says that each relay may be closed, because after a crash or a power cut no more is known.
 The same holds without a file, and if the card refuses writes: then the file may be older than the last run. A power cut
 hides that, if the card refused before it and does not after it: the message `UNKEPT` has told a person to look.
+A card that hangs as the program begins counts as one that refuses.
 The file is written at the start, at a proper end, and when a relay is suspected or cleared: seldom.
 """
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,14 +18,13 @@ from typing import Any
 from hw.ports import Axis
 from rotator.exchange.motor import Trust, Trusts
 from rotator.store.forms import Form
+from rotator.store.hanging import HANGS_S, within
 from rotator.store.spared import SparedFile
 
 FILE_NAME = "relays.json"
 """Beside the state file."""
 FORM = Form("rotator relays")
 UNKNOWN: Trusts = (Trust.UNSEEN, Trust.UNSEEN)
-REFUSED_EVERY = 10
-"""A card that refuses is written again at each change, and without a change once in this many calls."""
 
 
 def after(trusts: Trusts, *, proper: bool) -> Trusts:
@@ -44,9 +45,8 @@ class RelaysFile:
         """`memory`: a folder that outlives the program, and not a boot; None: there is none."""
         self._file = SparedFile(path, FORM, "what is known of the relays", memory)
         self._written: dict[Axis, Trusts] = {}
-        self._tried: dict[Axis, Trusts] = {}
-        """The last content that the card refused."""
-        self._refused = 0
+        self._saving = threading.Lock()
+        """The first write may still hang when the next one comes."""
 
     @property
     def trouble(self) -> str:
@@ -58,11 +58,14 @@ class RelaysFile:
         """Whether the present trust would survive if the program were killed now."""
         return self._file.outlives
 
-    def begin(self) -> dict[Axis, Trusts]:
-        """The trust at the begin of a run. From now on the file says that the program runs."""
+    def begin(self, patience_s: float = HANGS_S) -> dict[Axis, Trusts]:
+        """The trust at the begin of a run. From now on the file says that the program runs.
+
+        Waits no longer than this for the card: its write then goes on in a thread.
+        """
         in_memory, kept = self._file.in_memory, self.load()
-        self.save(kept)
-        if in_memory or not self.trouble:
+        returned = within(patience_s, lambda: self.save(kept), "relays-first")
+        if in_memory or (returned and not self.trouble):
             return kept
         # It may have refused the run before this one too.
         return {axis: after(each, proper=False) for axis, each in kept.items()}
@@ -76,19 +79,20 @@ class RelaysFile:
             consequence="ignored, the axes are watched before a relay closes",
         )
 
-    def save(self, trusts: Mapping[Axis, Trusts], *, ending: bool = False) -> None:
-        """Write it, if it has changed. `ending`: the program ends properly, and no relay is closed any more."""
-        kept = {axis: after(each, proper=ending) for axis, each in trusts.items()}
-        if kept == self._written:
-            return
-        self._refused = self._refused + 1 if kept == self._tried else 0
-        if self._refused % REFUSED_EVERY:
-            return
-        self._tried = kept
-        if self._file.save(_content(kept)):
-            self._written, self._tried = kept, {}
-        else:
-            self._written = {}
+    def save(self, trusts: Mapping[Axis, Trusts], *, ending: bool = False) -> bool:
+        """Write it, if it has changed. `ending`: the program ends properly, and no relay is closed any more.
+
+        False: the card refuses.
+        """
+        with self._saving:
+            kept = {axis: after(each, proper=ending) for axis, each in trusts.items()}
+            if kept != self._written:
+                self._written = kept if self._file.save(_content(kept)) else {}
+            return bool(self._written)
+
+    def spare(self, trusts: Mapping[Axis, Trusts], *, ending: bool = False) -> None:
+        """Note it in memory, while another thread still waits for the card. May be called from any thread."""
+        self._file.note(_content({axis: after(each, proper=ending) for axis, each in trusts.items()}))
 
 
 def _content(trusts: Mapping[Axis, Trusts]) -> dict[str, object]:

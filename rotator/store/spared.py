@@ -7,6 +7,7 @@ what the content means.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -24,6 +25,9 @@ class SparedFile:
     def __init__(self, path: Path, form: Form, what: str, memory: Path | None) -> None:
         self._card = JsonFile(path, form, what)
         self._memory = JsonFile(memory / path.name, form, what) if memory else None
+        self._lock = threading.Lock()
+        """While the card is written, another thread may note something newer in memory."""
+        self._noted: Mapping[str, object] = {}
 
     @property
     def path(self) -> Path:
@@ -61,16 +65,24 @@ class SparedFile:
         self.note(content)
         if not self._card.save(content):
             return False
-        self.forget_note()
+        with self._lock:
+            if self._noted is content:
+                self._forget()
         return True
 
     def note(self, content: Mapping[str, object]) -> None:
-        """Write it in memory alone: it may change often, and cards wear."""
-        if self._memory is not None:
-            self._memory.save(content)
+        """Write it in memory alone: it may change often, and cards wear; or the card hangs."""
+        with self._lock:
+            self._noted = content
+            if self._memory is not None:
+                self._memory.save(content)
 
     def forget_note(self) -> None:
         """The card has it all."""
+        with self._lock:
+            self._forget()
+
+    def _forget(self) -> None:
         if self._memory is not None:
             with suppress(OSError):
                 self._memory.path.unlink(missing_ok=True)

@@ -96,6 +96,10 @@ class TriesFile:
             self._file.note(self._content(tries))
         return self._written is not None
 
+    def spare(self, tries: Mapping[Axis, Tries]) -> None:
+        """Note it in memory, while another thread still waits for the card. May be called from any thread."""
+        self._file.note(self._content(tries))
+
     def _refuses(self, counted: dict[Axis, Tries]) -> bool:
         """Whether the card has just refused the same: a dying card is not written for each start of a motor."""
         self._refusals = self._refusals + 1 if counted == self._refused else 0

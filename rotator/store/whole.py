@@ -9,6 +9,8 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
+from rotator.store.hanging import under_way
+
 NEW = ".new"
 """The ending of the name under which the new content is written first."""
 
@@ -20,6 +22,11 @@ def write_whole(path: Path, content: str | bytes) -> None:
     new file is in place, and a power failure may bring the old one back. A second call repeats all steps, and
     overwrites a `.new` file that the first call left.
     """
+    with under_way(path):
+        _write_whole(path, content)
+
+
+def _write_whole(path: Path, content: str | bytes) -> None:
     path = path.resolve()
     new = path.with_name(path.name + NEW)
     with new.open("wb") as file:

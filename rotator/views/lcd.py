@@ -45,6 +45,8 @@ def _notices(status: Status) -> list[str]:
     notices += [f"{_SHORT[fault.axis]} {fault.lcd}" for fault in status.faults]
     if status.latched:
         notices.append(("STORM: " if status.storm else "STOP: ") + short_sender(status.latched))
+    if status.unkept is not None:
+        notices.append(status.unkept.lcd)
     if status.mode is not Mode.AUTO:
         notices.append(f"MODE {status.mode.name}")
     for axis in Axis:

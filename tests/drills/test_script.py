@@ -8,9 +8,9 @@ import pytest
 
 import benchmarks.drills
 from benchmarks.drills import boxes, unusual
-from benchmarks.drills.box import configured
 from benchmarks.drills.boxes import BOTH, ROTORS, Rotor
 from benchmarks.drills.campaign import seeds, verdict
+from benchmarks.drills.configured import configured
 from benchmarks.drills.draw import draw
 from benchmarks.drills.play import play
 from benchmarks.drills.script import LINKS, PEOPLE, Drill, Event

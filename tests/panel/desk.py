@@ -156,6 +156,7 @@ class Desk(Bench):
         while self.clock() < until_s:
             due_s = self.clock() + 0.05
             self.thread.cycle(self.clock())
+            self.thread.save(self.clock())
             self.clock.sleep_until(due_s)
         return self.ordered()
 

@@ -13,10 +13,11 @@ from hw.ports import AngleSource, Direction, HardwareError
 from rotator.control.commands import Place as Placed
 from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
-from rotator.rotors.counted import HANGS_S, CountedAxis, CountedRotor
+from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.runtime.loop import COAST_S
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
+from rotator.store.hanging import HANGS_S
 from tests.hw.sensors.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
 
 MINUS, OFF, PLUS = Direction

@@ -11,6 +11,8 @@ import pytest
 from hw.ports import Axis
 from rotator.rotors.counts_writer import COUNTS_THREAD, CountsWriter, at_once
 from rotator.store.counts import CountsFile, Place, Standing
+from rotator.store.hanging import writes
+from tests.refusing import hanging, wait_until
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 CAMS = {AZ: {"spacing_deg": 5.0}, EL: {"spacing_deg": 5.0}}
@@ -170,3 +172,12 @@ def test_closed_it_writes_no_more_and_lets_nothing_start(path: Path) -> None:
     counts_writer.close()
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 100.0)
     assert not [thread for thread in threading.enumerate() if thread.name.startswith(COUNTS_THREAD)]
+
+
+def test_the_end_does_not_wait_for_a_card_that_hangs(path: Path) -> None:
+    counts_writer = CountsWriter(known(path))
+    with hanging(path):
+        assert not counts_writer.may_start(AZ)
+        wait_until(lambda: path in writes().values())
+        counts_writer.close()
+        assert [thread for thread in threading.enumerate() if thread.name == COUNTS_THREAD and thread.daemon]

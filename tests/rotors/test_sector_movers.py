@@ -9,8 +9,10 @@ from typing import Any
 
 import pytest
 
-from benchmarks.drills.box import Box, configured
+from benchmarks.drills.box import Box
 from benchmarks.drills.boxes import PANEL as PARTS
+from benchmarks.drills.card import Card
+from benchmarks.drills.configured import configured
 from benchmarks.drills.script import PAGE, PANEL, Drill, Event
 from benchmarks.drills.speech import said
 from firmware_sim.clock import SimClock
@@ -82,7 +84,8 @@ def booms(mover: Mover, folder: Path, *, fenced: bool) -> Iterator[tuple[float, 
     drill = Drill(kind, profile, mover.seconds, mover.start_deg, mover.tables | {"mount": mount}, seed="sector")
     clock = SimClock(1000.0)
     begun_s = clock()
-    box = Box(drill, configured(drill, folder), folder, clock, None, begun_s=begun_s)
+    card = Card(folder, folder.with_name("memory"))
+    box = Box(drill, configured(drill, folder), card, clock, None, begun_s=begun_s)
     events = [Event(each[0], each[1], each[2], tuple(each[3:])) for each in mover.events]
     for cycle in range(round(mover.seconds / STEP_S)):
         clock.sleep_until(begun_s + cycle * STEP_S)

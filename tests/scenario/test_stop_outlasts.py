@@ -19,6 +19,7 @@ from rotator.config.model import Config
 from rotator.exchange.orders import Aim, Home, Jog, LoadTimed, Order, Park, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.spoken import held_by, spoken
+from rotator.runtime.keeping import Keeping
 from rotator.runtime.loop import ControlLoop
 from rotator.store.latch import LatchFile
 from rotator.views import lcd
@@ -53,7 +54,7 @@ class Run:
         assert self.station.world is not None
         self.world: SimRotor = self.station.world
         controller = build_controller(config, latch=file.load())
-        self.loop = ControlLoop(controller, self.station.rotor, self.clock, 0.05, keep_latch=file.save)
+        self.loop = ControlLoop(controller, self.station.rotor, self.clock, 0.05, keeping=Keeping(latch=file.save))
         self.wait(LOOK_S)
 
     def wait(self, seconds: float) -> None:

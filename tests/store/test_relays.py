@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis
 from rotator.exchange.motor import ALL_OPEN, Trust, Trusts
 from rotator.store.relays import UNKNOWN, RelaysFile, after
-from tests.refusing import refuse
+from tests.refusing import hanging, refuse
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 SUSPECTED: dict[Axis, Trusts] = {AZ: (Trust.WELDED, Trust.OPEN), EL: (Trust.OPEN, Trust.DOUBTED)}
@@ -57,15 +57,15 @@ def test_memory_keeps_what_the_card_refuses(path: Path, tmp_path: Path, *, endin
     assert RelaysFile(path).load()[AZ][0] is Trust.WELDED
 
 
-def test_a_card_that_refuses_is_not_written_each_time(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_after_a_refusal_the_same_is_written_again_at_the_next_call(
+    path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     file = RelaysFile(path)
     blocked = refuse(path)
-    file.save(SUSPECTED)
+    assert not file.save(SUSPECTED)
+    assert not file.save(SUSPECTED)
     blocked.rmdir()
-    for _ in range(9):
-        file.save(SUSPECTED)
-        assert not path.exists()
-    file.save(SUSPECTED)
+    assert file.save(SUSPECTED)
     assert path.exists()
     assert not file.trouble
     assert len(caplog.records) == 1
@@ -105,3 +105,13 @@ def test_a_damaged_file_leaves_each_relay_unseen(path: Path, text: str, caplog: 
     path.write_text(text)
     assert RelaysFile(path).load() == {AZ: UNKNOWN, EL: UNKNOWN}
     assert len(caplog.records) == 1
+
+
+def test_a_start_does_not_wait_for_a_card_that_hangs_and_believes_no_relay(path: Path, tmp_path: Path) -> None:
+    memory = tmp_path / "memory"
+    RelaysFile(path).save(SUSPECTED, ending=True)
+    with hanging(path):
+        file = RelaysFile(path, memory)
+        assert file.begin(0.01) == {AZ: (Trust.WELDED, Trust.UNSEEN), EL: (Trust.UNSEEN, Trust.DOUBTED)}
+        file.spare({AZ: (Trust.WELDED, Trust.WELDED), EL: ALL_OPEN})
+        assert RelaysFile(path, memory).load()[AZ] == (Trust.WELDED, Trust.WELDED)

@@ -14,7 +14,7 @@ from rotator.assembly.kinds.relay_pot import relay_bank
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulated_axes import STOP_BEYOND_DEG, SimulatedAxes
 from rotator.rotors.counted import CountedAxis, CountedRotor
-from rotator.rotors.counts_writer import CountsWriter, at_once
+from rotator.rotors.counts_writer import CountsWriter
 from rotator.store.counts import NEVER, CountsFile, Place, Standing
 
 SWITCH_WITHIN_DEG = 1.0
@@ -30,7 +30,7 @@ def build(parts: Assembly, lines: OutputLines | None) -> CountedRotor:
     counts_writer: CountsWriter | None = None
     if parts.counts and counting:
         cams = config.pulses.cams(counting)
-        counts_writer = CountsWriter(CountsFile(parts.counts, cams), at_once if parts.in_step else None)
+        counts_writer = CountsWriter(CountsFile(parts.counts, cams), parts.write)
     kept = counts_writer.load() if counts_writer else {}
     axes: dict[Axis, CountedAxis] = {}
 

@@ -1,0 +1,94 @@
+"""The threads of the box that write files, in simulated time: at once as a rule, and in a real thread on a card that
+hangs.
+
+Knows that a thread does one job after the other, and when a job waits for the card: its file is under way and the job
+has not ended. So a drill is the same each time. Knows no file's content.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+from typing import Generic, TypeVar
+
+from rotator.runtime.latch_thread import AGAIN_S
+from rotator.store.hanging import writes
+from rotator.store.whole import NEW
+
+T = TypeVar("T")
+LOOKS_S, GIVES_UP_S = 0.0005, 20.0
+
+
+class Lane:
+    """One thread. `pipe`: where the new content of its file is written. `hangs`: whether the card hangs."""
+
+    def __init__(self, pipe: Path, hangs: Callable[[], bool]) -> None:
+        self._file = pipe.with_name(pipe.name.removesuffix(NEW)).resolve()
+        self._hangs = hangs
+        self._jobs: deque[Callable[[], object]] = deque()
+        self._thread: threading.Thread | None = None
+
+    @property
+    def busy(self) -> bool:
+        """Whether a job waits for the card."""
+        return self._thread is not None
+
+    def __call__(self, job: Callable[[], object]) -> None:
+        """Do this job after those that came before."""
+        if self._thread is not None:
+            self._jobs.append(job)
+        elif not self._hangs():
+            job()
+        else:
+            self._thread = threading.Thread(target=job, daemon=True)
+            self._thread.start()
+            while self._thread.is_alive() and self._file not in writes().values():
+                self._thread.join(LOOKS_S)
+            if self._file not in writes().values():
+                self._thread = None
+
+    def join(self) -> None:
+        """The hang ends: do all that has waited."""
+        if self._thread is None:
+            return
+        self._thread.join(GIVES_UP_S)
+        assert not self._thread.is_alive(), "the write has not returned"
+        self._thread = None
+        while self._jobs:
+            self._jobs.popleft()()
+
+
+class KeptLane(Generic[T]):
+    """`rotator.runtime.latch_thread` in simulated time: the newest note is written, and noted in memory meanwhile."""
+
+    def __init__(self, lane: Lane, save: Callable[[T], bool], spare: Callable[[T], None], kept: T) -> None:
+        self._lane, self._save, self._spare = lane, save, spare
+        self._newest = kept
+        self._done = True
+        self._tried_s = 0.0
+
+    def start(self) -> None:
+        self.note(self._newest)
+
+    def note(self, newest: T) -> None:
+        self._newest = newest
+        if self._lane.busy:
+            self._done = False
+            self._spare(newest)
+        else:
+            self._lane(lambda: self._write(newest))
+
+    def end(self, save: Callable[[T], bool]) -> None:
+        """The program ends: write the present state this way. It does not wait for a card that hangs."""
+        self._lane(lambda: save(self._newest))
+
+    def look(self, now_s: float) -> None:
+        """What the card has not taken is tried again."""
+        if not self._done and not self._lane.busy and now_s - self._tried_s >= AGAIN_S:
+            self._tried_s = now_s
+            self.note(self._newest)
+
+    def _write(self, newest: T) -> None:
+        self._done = self._save(newest) and newest == self._newest

@@ -1,0 +1,121 @@
+"""A card that refuses or hangs is said on every display, whichever file it is; the antenna obeys all the same."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from hw.ports import Axis
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
+from rotator.config.model import Config
+from rotator.config.writing import replace
+from rotator.exchange.motor import ALL_OPEN
+from rotator.exchange.orders import Aim, Release, Stop
+from rotator.exchange.sources import Source
+from rotator.exchange.status import Latch
+from rotator.protocols.console_session import report
+from rotator.runtime.card_watch import CardWatch
+from rotator.runtime.keeping import Keeping
+from rotator.runtime.latch_thread import LatchThread
+from rotator.runtime.loop import ControlLoop
+from rotator.store.hanging import HANGS_S, writes
+from rotator.store.knobs import KnobsFile
+from rotator.store.latch import LatchFile
+from rotator.store.relays import RelaysFile
+from rotator.store.tries import NOTHING, TriesFile
+from rotator.views.lcd import rows
+from tests.refusing import hanging, refuse, wait_until
+
+CYCLE_S = 0.05
+LINK, PERSON = Source("gs232b", 1), Source("console", 1)
+FILES: dict[str, Callable[[Path], object]] = {
+    "latch": lambda path: LatchFile(path).save(Latch("console#1")),
+    "relays": lambda path: RelaysFile(path).save({Axis.AZIMUTH: ALL_OPEN}),
+    "tries": lambda path: TriesFile(path).save(NOTHING),
+    "knobs": lambda path: KnobsFile(path).save({Axis.AZIMUTH: 0.9}),
+    "configuration": lambda path: _replaced(path.with_name("other")),
+}
+
+
+def _replaced(path: Path) -> None:
+    with pytest.raises(OSError, match="Invalid"):
+        replace(path, "", "")
+
+
+class Box:
+    def __init__(self, card: CardWatch | None = None, keeping: Keeping | None = None) -> None:
+        self.clock, config = SimClock(), Config()
+        station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
+        self.loop = ControlLoop(
+            build_controller(config), station.rotor, self.clock, CYCLE_S, card=card, keeping=keeping
+        )
+        self.run(3.0)
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / CYCLE_S)):
+            self.clock.sleep(CYCLE_S)
+            self.loop.cycle()
+
+    @property
+    def displayed(self) -> set[str]:
+        return {rows(self.loop.status, second)[0].strip() for second in range(20)}
+
+    @property
+    def turns(self) -> bool:
+        return self.loop.status.azimuth.drive != 0
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_write_that_hangs_is_said_after_seconds_for_as_long_as_it_lasts(tmp_path: Path, name: str) -> None:
+    box, path = Box(), tmp_path / "kept.json"
+    hung = path.with_name("other.bak") if name == "configuration" else path
+    with hanging(hung):
+        threading.Thread(target=FILES[name], args=(path,), daemon=True).start()
+        wait_until(lambda: hung in writes().values())
+        box.run(0.9 * HANGS_S)
+        assert box.loop.status.unkept is None
+        box.run(0.2 * HANGS_S)
+        assert hung.name in " ".join(report(box.loop.status))
+        assert "CARD HANGS" in box.displayed
+    box.run(CYCLE_S)
+    assert box.loop.status.unkept is None
+
+
+def test_a_refusal_is_said_at_once(tmp_path: Path) -> None:
+    file = RelaysFile(tmp_path / "relays.json")
+    refuse(tmp_path / "relays.json")
+    box = Box(CardWatch(lambda: ["", file.trouble]))
+    file.save({Axis.AZIMUTH: ALL_OPEN})
+    box.run(CYCLE_S)
+    assert "CARD REFUSES" in box.displayed
+    assert "directory" in " ".join(report(box.loop.status))
+
+
+def test_while_the_card_hangs_the_antenna_moves_and_stops_and_a_stop_is_in_memory(tmp_path: Path) -> None:
+    path, memory = tmp_path / "latch.json", tmp_path / "memory"
+    file = LatchFile(path, memory)
+    latch: LatchThread[Latch | None] = LatchThread(file.save, None, spare=file.spare)
+    box = Box(keeping=Keeping(latch=latch.note))
+    latch.start()
+    with hanging(path):
+        for _ in range(2):
+            box.loop.post(LINK, Aim(200.0, 20.0))
+            box.run(2.0)
+            assert box.turns
+            box.loop.post(PERSON, Stop(latch=True))
+            box.loop.act()
+            assert not box.turns
+            wait_until(lambda: LatchFile(path, memory).load())
+            box.loop.post(PERSON, Release())
+            box.run(2.0)
+            wait_until(lambda: LatchFile(path, memory).load() is None)
+        box.loop.post(PERSON, Stop(latch=True))
+        box.loop.act()
+        wait_until(lambda: LatchFile(path, memory).load())
+    latch.close()
+    assert LatchFile(path).load()
