@@ -52,6 +52,9 @@ class WorldEvents:
         if event.what == "card":
             self._card.become(event.number(0))
             return
+        if event.what == "file":
+            self._card.change(event.text(0), event.text(1), now_s)
+            return
         spoil(self._config, self._cases, self._judges, event)
         self._troubles.begin(event.what, event.args)
         if event.what == "fault":

@@ -92,7 +92,14 @@ class Box:
         assert tried is not None, "the rotor of a drill outlives its program"
         stopped, tries = kept.load(), tried.load()
         controller = build_controller(
-            config, learnt.load(), commissioning, trusts=trusts, tries=tries, latch=stopped, panel=config.panel.fitted
+            config,
+            learnt.load(),
+            commissioning,
+            attended=not drill.left_alone,
+            trusts=trusts,
+            tries=tries,
+            latch=stopped,
+            panel=config.panel.fitted,
         )
         self.events, self.page_events = EventWatch(clock), EventWatch(clock)
         """The watches over the event loops that serve the links and the page; the drill ticks for them."""

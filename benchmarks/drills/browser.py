@@ -10,8 +10,9 @@ from __future__ import annotations
 import random
 from typing import cast
 
+from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import BOTH, Mast
-from benchmarks.drills.script import PAGE, Arg, Event
+from benchmarks.drills.script import CLOCK, PAGE, Arg, Event
 from hw.ports import Direction
 from rotator.exchange.orders import Jog
 from rotator.exchange.sources import Source
@@ -23,6 +24,8 @@ from rotator.web.holding import LEASE_S
 
 LOOKS_ON = 0.35
 """The share of drills with a browser."""
+STALLS = 0.2
+"""The share of those in which the page's event loop stands still for a while."""
 SIGN_S = 0.1
 WAYS = ("cw", "ccw", "up", "down")
 MODES = ("auto", "manual", "jog", "park")
@@ -67,18 +70,21 @@ def draw_browser(seed: str, mast: Mast, seconds: float, moments_s: list[float]) 
         at_s = chance.uniform(0.0, seconds)
         if chance.random() < 0.7:
             at_s = max(0.0, chance.choice(moments_s) + chance.uniform(-0.5, 6.0))
-        for what, *args in _errand(chance, mast):
+        for what, *args in _errand(chance, mast, at_s):
             events += _press(chance, at_s, what, args)
             at_s = events[-1].at_s + chance.choice((0.05, 0.5, 2.0, 10.0))
+    if chance.random() < STALLS:
+        at_s = chance.choice(events).at_s + chance.uniform(-0.5, 3.0)
+        events.append(Event(round(max(0.0, at_s), 3), CLOCK, "page-stalled", (chance.choice((0.5, 1.5, 5.0, 20.0)),)))
     return [event for event in events if event.at_s < seconds]
 
 
-def _errand(chance: random.Random, mast: Mast) -> list[tuple[str, *tuple[Arg, ...]]]:
+def _errand(chance: random.Random, mast: Mast, at_s: float) -> list[tuple[str, *tuple[Arg, ...]]]:
     """The orders that a person gives one after the other."""
     way, axis = chance.choice(WAYS), chance.choice(BOTH)
     azimuth_deg, elevation_deg = (float(chance.randrange(round(top_deg))) for top_deg in mast.top_deg)
     aim: tuple[str, *tuple[Arg, ...]] = ("aim", azimuth_deg, elevation_deg)
-    match chance.randrange(9):
+    match chance.randrange(10):
         case 0:
             return [("take",), aim, ("give-back",)]
         case 1:
@@ -95,6 +101,8 @@ def _errand(chance: random.Random, mast: Mast) -> list[tuple[str, *tuple[Arg, ..
             return [("relays-checked", axis), ("jog", chance.choice(WAYS), 2.0)]
         case 7:
             return [("take",), ("give-back",)]
+        case 8:
+            return [("track", draw_arc(chance, at_s)), *([("give-back",)] if chance.random() < 0.3 else [])]
         case _:
             return [("jog", way, chance.choice((0.1, 1.0, 5.0))), ("give-back",)]
 

@@ -25,6 +25,12 @@ WORKS, REFUSES, REFUSES_LATER, HANGS = 0.0, 1.0, 2.0, 3.0
 finds the content from before."""
 
 
+WAYS = ("deleted", "emptied", "garbled", "older")
+"""How another program or a person changes a file."""
+NOTICES_S = 11.0
+"""Within this time the running box writes a changed file again."""
+
+
 class Card:
     """`folder`: with the state files. `memory`: the folder that stands for the service's memory."""
 
@@ -32,6 +38,10 @@ class Card:
         self.folder, self.memory = folder, memory
         self._state = WORKS
         self._lanes: list[Lane] = []
+        self._older: dict[str, bytes] = {}
+        """By file: what it held when a run of the program began."""
+        self._changed: dict[str, tuple[float, bytes | None]] = {}
+        """By file: when it was changed under the running box, and what it held before; None: there was no such file."""
 
     @property
     def hangs(self) -> bool:
@@ -65,6 +75,31 @@ class Card:
             elif state == HANGS:
                 where.unlink(missing_ok=True)
                 os.mkfifo(where)
+
+    def change(self, name: str, how: str, now_s: float) -> None:
+        """Another program or a person changes this file."""
+        path = self.folder / name
+        self._changed[name] = now_s, path.read_bytes() if path.exists() else None
+        if how == "deleted" or (how == "older" and name not in self._older):
+            path.unlink(missing_ok=True)
+        else:
+            path.write_bytes({"emptied": b"", "garbled": b"\x00{}" * 40}.get(how) or self._older.get(name, b""))
+
+    def program_begins(self) -> None:
+        """A run has begun: its files as they are now."""
+        for name in NAMES:
+            if (path := self.folder / name).exists():
+                self._older[name] = path.read_bytes()
+
+    def put_back(self, now_s: float, names: tuple[str, ...]) -> list[str]:
+        """The program has ended. A person puts back those of these files that were changed so late that the box could
+        not write them again. Returns the others that were."""
+        late = {name: before for name, (at_s, before) in self._changed.items() if now_s - at_s < NOTICES_S}
+        self._changed.clear()
+        for name in names:
+            if (before := late.get(name)) is not None:
+                (self.folder / name).write_bytes(before)
+        return [name for name in late if name not in names]
 
     @contextmanager
     def program_ends(self) -> Iterator[None]:

@@ -26,7 +26,7 @@ UNCALIBRATED_S = 2.0
 PUT_OFF_S = 6.0
 """A jog with a time may begin this late: when the box has seen the axis stand."""
 UNSEEN_S = 0.2
-"""A stop and its release this soon after a turn of a knob may come before the panel has seen that turn."""
+"""A stop and its release, or a new mode, this soon after a turn of a knob may come before the panel has seen it."""
 ROUND, BEFORE = "round a sector", "before a jog"
 
 
@@ -157,6 +157,7 @@ class InForce:
                 self._silenced.forget()
                 self._held_off.forget()
                 self._aims.shifts.cleared()
+                self._knob_seen_since(turned.since_s)
             if turned.releases:
                 self._release(now_s)
         if not self._held:
@@ -190,8 +191,12 @@ class InForce:
     def _heard_again(self, now_s: float) -> None:
         """The silence of all senders ends: no stop holds them back any more."""
         self._silenced.forget()
-        if self._knob is not None and now_s - self._knob.at_s < UNSEEN_S:
-            self._turn_knob(self._knob)  # the panel may see the turn only now
+        self._knob_seen_since(now_s)
+
+    def _knob_seen_since(self, since_s: float) -> None:
+        """Orders count since that moment: a turn of a knob just before it may be seen only then."""
+        if self._knob is not None and since_s - self._knob.at_s < UNSEEN_S:
+            self._turn_knob(self._knob)
 
     def _turn_knob(self, event: Event) -> None:
         self._knob = event

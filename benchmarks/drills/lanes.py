@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Generic, TypeVar
 
-from rotator.runtime.latch_thread import AGAIN_S
+from rotator.runtime.latch_thread import LOOKS_S as SAVES_AGAIN_S
 from rotator.store.hanging import writes
 from rotator.store.whole import NEW
 
@@ -66,7 +66,6 @@ class KeptLane(Generic[T]):
     def __init__(self, lane: Lane, save: Callable[[T], bool], spare: Callable[[T], None], kept: T) -> None:
         self._lane, self._save, self._spare = lane, save, spare
         self._newest = kept
-        self._done = True
         self._tried_s = 0.0
 
     def start(self) -> None:
@@ -75,20 +74,16 @@ class KeptLane(Generic[T]):
     def note(self, newest: T) -> None:
         self._newest = newest
         if self._lane.busy:
-            self._done = False
             self._spare(newest)
         else:
-            self._lane(lambda: self._write(newest))
+            self._lane(lambda: self._save(newest))
 
     def end(self, save: Callable[[T], bool]) -> None:
         """The program ends: write the present state this way. It does not wait for a card that hangs."""
         self._lane(lambda: save(self._newest))
 
     def look(self, now_s: float) -> None:
-        """What the card has not taken is tried again."""
-        if not self._done and not self._lane.busy and now_s - self._tried_s >= AGAIN_S:
+        """Save the same again: the card may have refused it, or the file have been changed."""
+        if not self._lane.busy and now_s - self._tried_s >= SAVES_AGAIN_S:
             self._tried_s = now_s
             self.note(self._newest)
-
-    def _write(self, newest: T) -> None:
-        self._done = self._save(newest) and newest == self._newest

@@ -1,171 +1,29 @@
 """Which orders of a drill are in force, as a person beside the mast would say it, axis by axis.
 
-Knows the script's orders and what ends them. Does not know which of them the box obeyed: an order that the box may have
-ignored counts as in force, and so does the older order before it. So a judge accuses only a motion that no order
-excuses.
-The stops are in `stops`, the page's button in `held_button`, the angles of an order in `aim_angles`.
+Knows the script's orders. Does not know which of them the box obeyed: an order that the box may have ignored counts as
+in force, and so does the older order before it. So a judge accuses only a motion that no order excuses. What ends an
+order is in `in_force`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
-from benchmarks.drills.aim_angles import AimAngles
-from benchmarks.drills.front_panel import STILL_AT_MOST_S, FrontPanel
-from benchmarks.drills.goals import ZENITH_DEG, AxisOrders, Goal, Ranges
-from benchmarks.drills.held_button import AT_END, BUTTON, PANEL_S, HeldButton
-from benchmarks.drills.held_off import HeldOff
+from benchmarks.drills.goals import ZENITH_DEG, Goal
+from benchmarks.drills.held_button import BUTTON, PANEL_S
+from benchmarks.drills.in_force import AXES, PUT_OFF_S, UNCALIBRATED_S, InForce
 from benchmarks.drills.script import PAGE, PANEL, PEOPLE, Event
-from benchmarks.drills.silenced import Silenced
-from benchmarks.drills.stops import Stops
-from benchmarks.drills.tracked import Tracked
 
-AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
-UNCALIBRATED_S = 2.0
-"""A press turns an axis that was never set up for this time at most."""
-PUT_OFF_S = 6.0
-"""A jog with a time may begin this late: when the box has seen the axis stand."""
-UNSEEN_S = 0.2
-"""A stop and its release, or a new mode, this soon after a turn of a knob may come before the panel has seen it."""
 LEASE_S = 0.5
 """A button on the page counts as held for this time after its last sign."""
-ROUND, BEFORE = "round a sector", "before a jog"
 REFUSES_S = 0.3
 """The box may see this late that an axis has come to rest."""
 
 
-class Orders:
-    """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
-
-    `over_top`: whether the antenna stands over the top; one coordinate alone then moves both axes. `confirms`: a person
-    may confirm the angle of an axis. `counts`: the axes count, and may not be homed yet. `turns`: whether an axis turns
-    or its motor is fed; the box may then refuse a confirmed angle. `at_end`: whether an axis stands near that end of
-    its range; a person's jog is refused there.
-    """
-
-    def __init__(
-        self,
-        ranges: tuple[Ranges, Ranges],
-        park_deg: tuple[float, float],
-        *,
-        lacking: str = "",
-        parks_idle: bool = False,
-        over_top: Callable[[], bool] = lambda: False,
-        confirms: bool = True,
-        turns: Callable[[str], bool] = lambda _axis: False,
-        counts: bool = False,
-        follows: bool = False,
-        at_end: Callable[[str, int], bool] = lambda _axis, _way: False,
-    ) -> None:
-        self.axes = {name: AxisOrders() for name in AXES}
-        spans = dict(zip(AXES, ranges, strict=True))
-        self._park_deg = dict(zip(AXES, park_deg, strict=True))
-        self.lacking = lacking
-        self._parks_idle = parks_idle
-        self._confirms = confirms
-        self._turns = turns
-        self._turned_s = dict.fromkeys(AXES, -math.inf)
-        self._counts = counts
-        self._at_end = at_end
-        self.stops = Stops()
-        self.ended_at_s = 0.0
-        """When the program last ended."""
-        self.button = HeldButton(self.axes, lacking)
-        self._panel = FrontPanel()
-        self.goes_round = False
-        """Forbidden sectors lie in the way: an order for one axis may turn both."""
-        self._silenced = Silenced()
-        self._held_off = HeldOff()
-        self._modes = False
-        """A person on the page has set a mode, which may hold a storm park back."""
-        self._modes_known_s = STILL_AT_MOST_S
-        """Until this moment the first reading of a panel's mode switch may end a person's hold of the antenna."""
-        self.sure = False
-        """A direction is in force for certain: nothing held back its order, and nothing has ended it."""
-        self._listed = False
-        """The box may have a list to run."""
-        self._tracked = Tracked(self.axes, spans, follows=follows, lacking=lacking)
-        self._aims = AimAngles(self.axes, spans, self._tracked.recognised, lacking=lacking, over_top=over_top)
-        self.heard = 0
-        """How many orders there have been."""
-        self._knob: Event | None = None
-        """The latest turn of a knob of the panel."""
-
-    @property
-    def attended(self) -> bool:
-        """Whether a person sets an axis up, and watches the antenna."""
-        return bool(self.lacking)
-
-    def holds(self, axis: str) -> bool:
-        """Whether an order for this axis is in force."""
-        return not self._held and bool(self.axes[axis].goals)
-
-    @property
-    def _held(self) -> bool:
-        return self.stops.latched or self._panel.mode == "park"
-
-    def ended_s(self, axis: str) -> float:
-        """When the last order for this axis ended; 0: no order has ended yet."""
-        return self.axes[axis].ended_s or 0.0
-
-    def forget_all(self, now_s: float) -> None:
-        """The program ends, and all orders with it. A stop that the program had time to store holds in its next run."""
-        self._forget(now_s)
-        self.stops.restart(now_s, pressed=self._panel.pressed)
-        self._heard_again(now_s)
-        self.ended_at_s = now_s
-        self._aims.shifts.cleared()
-        self._held_off.forget()
-        self._modes = False
-        self._modes_known_s = now_s + STILL_AT_MOST_S
-        self._tracked.begin_anew()
-
-    def links_lost(self, now_s: float) -> None:
-        """No stop could arrive from a link or console: motion that these ordered ends. A storm park and motion that the
-        panel ordered go on."""
-        elsewhere = any(who in orders.goals for who in (PANEL, PAGE, BUTTON) for orders in self.axes.values())
-        if not self.stops.storm_under_way and self._panel.mode == "auto" and not elsewhere:
-            self._forget(now_s)
-
-    def page_lost(self, now_s: float) -> None:
-        """No stop could arrive from the page: motion that was ordered there ends."""
-        if not self.stops.latched:
-            self.button.let_go(now_s)
-            for axis in AXES:
-                self._drop(axis, now_s, (PAGE, BUTTON, f"{PAGE} {AT_END}", f"{BUTTON} {AT_END}"))
-
-    def _drop(self, axis: str, now_s: float, senders: tuple[str, ...]) -> None:
-        """The orders of these senders end."""
-        goals = self.axes[axis].goals
-        ended = [goals.pop(sender, None) for sender in senders]
-        if any(ended):
-            self.axes[axis].ended_s = now_s
-            self.sure = False
-            self._may_idle(now_s)
-
-    def expire(self, now_s: float) -> None:
-        for axis, orders in self.axes.items():
-            orders.expire(now_s)
-            if self._turns(axis):
-                self._turned_s[axis] = now_s
-        if self._panel.pressed and not self.stops.latched:
-            self._forget(now_s)
-            self.stops.latch(now_s)
-        before = self._panel.mode
-        if (turned := self._panel.look(now_s)) is not None:
-            if turned.mode != before:
-                self._forget(now_s, turned.since_s)
-                self._silenced.forget()
-                self._held_off.forget()
-                self._aims.shifts.cleared()
-                self._knob_seen_since(turned.since_s)
-            if turned.releases:
-                self._release(now_s)
-        if not self._held:
-            self._tracked.keep(now_s)
+class Orders(InForce):
+    """Give it every event (`note`), and the time (`expire`)."""
 
     def note(self, event: Event) -> None:
         self.heard += 1
@@ -198,13 +56,6 @@ class Orders:
         free = self._panel.mode == "auto" and self._panel.settled and not self._held and not self.stops.storm_under_way
         free = free and not self._held_off.perhaps
         self._tracked.note(event, takes=free and not self.lacking and not self._counts)
-
-    def _may_idle(self, now_s: float) -> None:
-        """After the first order a box with an idle park may park at any time: not in a calibration, nor in a mode of a
-        person at the panel."""
-        if self._parks_idle and not self.attended and (self._panel.mode == "auto" or not self._panel.settled):
-            for axis, orders in self.axes.items():
-                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), said_s=now_s))
 
     def _note_person(self, event: Event) -> None:
         match event.what:
@@ -260,20 +111,6 @@ class Orders:
             case _:
                 self._note_person(event)
 
-    def _jog(self, event: Event, axis: str, goal: Goal) -> None:
-        """At an end of the range a person's jog is refused with the reason, and the present motion may go on."""
-        person = event.who in (*PEOPLE, PAGE, BUTTON)
-        who = f"{event.who} {AT_END}" if person and self._at_end(axis, goal.way) else event.who
-        self.axes[axis].goals[who] = goal
-        others = [orders.goals for name, orders in self.axes.items() if name != axis]
-        for goals in others:
-            # A jog silences the stream of another sender. The stream's latest target stays in force for the other axis.
-            streams = [other for other in goals if other != event.who and not other.endswith(BEFORE)]
-            goals.update({f"{other} {BEFORE}": replace(goals[other]) for other in streams})
-        if self.goes_round and any(other.angles_deg for goals in others for other in goals.values()):
-            # The other axis goes on to its target, and this axis may have to make room for it.
-            self.axes[axis].goals[f"{event.who} {ROUND}"] = Goal(said_s=event.at_s)
-
     def _note_panel(self, event: Event) -> None:
         match event.what:
             case "mode":
@@ -283,10 +120,7 @@ class Orders:
             case "stop":
                 self._panel.pull(event.at_s)
             case "knob":
-                self._knob = event
-                turned = self.axes if self.goes_round else (event.text(0),)
-                for axis in turned:
-                    self._anywhere(event, axis)
+                self._turn_knob(event)
             case "jog" if self._panel.mode == "jog" and self._panel.settled:
                 axis, way = WAYS[event.text(0)]
                 until_s = event.at_s + event.number(1) + PANEL_S
@@ -352,42 +186,3 @@ class Orders:
                     self._anywhere(event, axis)
             case "leave":
                 self._left(event)
-
-    def _release(self, now_s: float) -> None:
-        self.stops.release(now_s, pressed=self._panel.pressed)
-        self._heard_again(now_s)
-
-    def _heard_again(self, now_s: float) -> None:
-        """The silence of all senders ends: no stop holds them back any more."""
-        self._silenced.forget()
-        self._knob_seen_since(now_s)
-
-    def _knob_seen_since(self, since_s: float) -> None:
-        """Orders count since that moment: a turn of a knob just before it may be seen only then."""
-        if self._knob is not None and since_s - self._knob.at_s < UNSEEN_S:
-            self._note_panel(self._knob)
-
-    def _left(self, event: Event) -> None:
-        for axis, orders in self.axes.items():
-            goal = orders.goals.get(event.who)
-            if goal is not None and goal.way and event.who not in PEOPLE:
-                # A press of an axis that was never set up or homed has an end of its own.
-                lasts_s = UNCALIBRATED_S + PUT_OFF_S if self._counts or axis == self.lacking else 0.0
-                goal.until_s = min(goal.until_s, max(event.at_s, goal.said_s + lasts_s))
-                orders.expire(event.at_s)
-
-    def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
-        self.sure = False
-        self.stops.end_motion()
-        self._aims.forget()
-        self._tracked.stopped(now_s, said_before_s)
-        for axis in self.axes:
-            self._end(axis, now_s, said_before_s)
-
-    def _end(self, axis: str, now_s: float, said_before_s: float = math.inf) -> None:
-        """The orders for this axis end; later an idle antenna may park."""
-        self.axes[axis].forget(now_s, said_before_s)
-        self._may_idle(now_s)
-
-    def _anywhere(self, event: Event, axis: str) -> None:
-        self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)

@@ -1,5 +1,6 @@
-"""Failures around the box: a program that is killed or ends again and again, a card that refuses to be written,
-a bus that hangs as the program begins.
+"""Failures around the box: a program that is killed or ends again and again, a card that refuses or hangs, files that
+are changed under the box, a bus that hangs as the program begins, a page that hangs, a supply of the pots that reads
+wrong.
 
 Drawn with a random stream of its own, so that the rest of the drill stays the same. Knows how often each failure
 happens. Does not judge.
@@ -10,10 +11,13 @@ from __future__ import annotations
 import random
 
 from benchmarks.drills.boxes import BOTH, Mast
+from benchmarks.drills.card import HANGS, NAMES, REFUSES, REFUSES_LATER, WAYS, WORKS
 from benchmarks.drills.script import CLOCK, COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Event
+from rotator.assembly.adc import SUPPLY
 
-LOOPS, CARDS, BUSES = 0.1, 0.15, 0.04
-"""The shares of drills with a program that ends again and again, and with a card that refuses."""
+LOOPS, CARDS, FILES, BUSES, PAGES = 0.1, 0.2, 0.06, 0.04, 0.06
+"""The shares of drills with each of these failures; of the supply, among the boxes that measure it: all."""
+HANGS_S = (1.0, 4.0, 10.0, 60.0, 300.0)
 
 
 def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], float]:
@@ -21,15 +25,27 @@ def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], fl
     chance = random.Random(f"{seed} outages")
     events: list[Event] = []
     if chance.random() < CARDS:
-        events.append(_at(chance.choice((0.0, chance.uniform(0.0, seconds))), WORLD, "card", chance.choice((1.0, 2.0))))
+        at_s, state = chance.choice((0.0, chance.uniform(0.0, seconds))), chance.choice((REFUSES, REFUSES_LATER, HANGS))
+        events.append(_at(at_s, WORLD, "card", state))
+        if state == HANGS:
+            events += _while_it_hangs(chance, at_s)
         if chance.random() < 0.5:
-            events.append(_at(events[0].at_s + chance.uniform(1.0, seconds), WORLD, "card", 0.0))
+            lasts_s = chance.choice(HANGS_S) if state == HANGS else chance.uniform(1.0, seconds)
+            events.append(_at(at_s + lasts_s, WORLD, "card", WORKS))
         if chance.random() < 0.6:
             what = chance.choice(("kill", "restart"))
             events.append(_at(chance.uniform(0.0, seconds), PROGRAM, what, chance.choice((0.5, 2.0, 5.0))))
     if chance.random() < LOOPS:
         loop, seconds = _loop(chance, mast, seconds)
         events += loop
+    if chance.random() < FILES:
+        for name in chance.sample(NAMES, chance.choice((1, 1, 2, len(NAMES)))):
+            events.append(_at(chance.uniform(0.0, seconds), WORLD, "file", name, chance.choice(WAYS)))
+        events.append(_at(chance.uniform(0.0, seconds), PROGRAM, chance.choice(("kill", "restart")), 2.0))
+    if chance.random() < PAGES:
+        events.append(_at(chance.uniform(0.0, seconds), CLOCK, "page-stalled", chance.choice((0.5, 1.5, 5.0, 20.0))))
+    if "reference_channel" in mast.tables.get("adc", {}):
+        events += _supply(chance, seconds)
     if chance.random() < BUSES:
         begins_s = chance.choice([0.0, *(event.at_s for event in events if event.who == PROGRAM)])
         events.append(_at(begins_s, CLOCK, "hung", chance.choice((1.0, 4.0, 8.0, 30.0))))
@@ -57,6 +73,32 @@ def _loop(chance: random.Random, mast: Mast, begins_s: float) -> tuple[list[Even
     if chance.random() < 0.3:
         events.append(_at(chance.uniform(begins_s, ends_s), chance.choice(PEOPLE), "resume"))
     return events, ends_s
+
+
+def _while_it_hangs(chance: random.Random, at_s: float) -> list[Event]:
+    """What writes files: stops, releases, and a program that ends meanwhile."""
+    who, events = chance.choice(PEOPLE), []
+    for what in chance.choice((("stop",), ("stop", "resume"), ("stop", "resume", "stop"), ("storm", "resume"))):
+        at_s += chance.uniform(0.1, 5.0)
+        events.append(_at(at_s, who, what))
+    at_s += chance.choice((0.3, 3.0, 8.0))
+    if chance.random() < 0.7:
+        events.append(_at(at_s, PROGRAM, chance.choice(("kill", "restart")), chance.choice((0.5, 2.0))))
+        at_s += 2.5
+    link = chance.choice(COMMON_LINKS)
+    for _ in range(chance.choice((0, 1, 2))):
+        events.append(_at(at_s, link, "aim", float(chance.randrange(360)), float(chance.randrange(90))))
+        at_s += chance.choice((0.5, 5.0))
+    return events
+
+
+def _supply(chance: random.Random, seconds: float) -> list[Event]:
+    """The input that measures the pots' supply reads wrong now and then, or for a moment."""
+    at_s, bad = chance.uniform(0.0, seconds), chance.choice(("zero", "full", "far", "near"))
+    if chance.random() < 0.5:
+        return [_at(at_s, WORLD, "burst", SUPPLY, chance.uniform(0.02, 0.3), bad)]
+    ends = [_at(at_s + chance.uniform(1.0, seconds), WORLD, "every", SUPPLY, 0.0, "zero")]
+    return [_at(at_s, WORLD, "every", SUPPLY, float(chance.randrange(4, 33)), bad), *ends]
 
 
 def _at(at_s: float, who: str, what: str, *args: float | str) -> Event:

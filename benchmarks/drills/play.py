@@ -29,6 +29,7 @@ from benchmarks.drills.speech import parts, said
 from benchmarks.drills.trouble import Troubles
 from benchmarks.drills.world import World
 from firmware_sim.clock import SimClock
+from rotator.store import counts, latch, relays, tries
 
 STARTED_S = 1000.0
 STEP_S = 0.05
@@ -76,7 +77,9 @@ class _Play:
         self._world = World(self._box.world, self._clock)
         self._troubles = Troubles(self._box.world, self._clock, drill.seed)
         self._cases = axis_cases(self._config, self._world.axes)
-        self._orders = build_orders(self._config, self._world.axes, self._cases, lacking=drill.commissioning)
+        self._orders = build_orders(
+            self._config, self._world.axes, self._cases, lacking=drill.commissioning, left_alone=drill.left_alone
+        )
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
         self._silence = Silence(self._words, self._cases)
@@ -268,12 +271,16 @@ class _Play:
         else:
             self._box.end()
             self._card.lanes_end()
+        # A box that counts and one with a weld cannot know better than their files.
+        if latch.FILE_NAME in self._card.put_back(self._now_s, (counts.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME)):
+            self._orders.stops.spoil()
         self._card.begins_to_refuse()
         for loop in (self._links, self._page):
             loop.begin_anew()
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._card, self._clock, self._box.world, begun_s=STARTED_S)
+        self._card.program_begins()
         self._back_s = self._now_s
         begins_anew(self._config, self._cases, self._world.axes)
 

@@ -73,7 +73,14 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
     )
 
 
-def build_orders(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase, AxisCase], *, lacking: str) -> Orders:
+def build_orders(
+    config: Config,
+    truths: list[AxisTruth],
+    cases: tuple[AxisCase, AxisCase],
+    *,
+    lacking: str,
+    left_alone: bool = False,
+) -> Orders:
     shift, park_deg = build_offsets(config), (config.mount.park_azimuth_deg, config.mount.park_elevation_deg)
     flips = config.mount.flip == "over-top"
     ranges = [
@@ -84,6 +91,7 @@ def build_orders(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase,
         (ranges[0], ranges[1]),
         (park_deg[0] + shift.azimuth_deg, park_deg[1] + shift.elevation_deg),
         lacking=lacking,
+        left_alone=left_alone,
         over_top=lambda: truths[1].shaft_deg + shift.elevation_deg + cases[1].slack_deg > ZENITH_DEG,
         turns=lambda name: any(
             truth.name == name and (truth.power or truth.coil or abs(truth.speed_dps) > 0.0) for truth in truths

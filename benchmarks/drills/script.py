@@ -51,6 +51,8 @@ class Drill:
     events: tuple[Event, ...] = ()
     seed: str = ""
     """The seed of the noise. It also names the drill from which this script was made."""
+    left_alone: bool = False
+    """No person sets up the axis that was never set up, or watches."""
 
     def with_events(self, events: tuple[Event, ...]) -> Drill:
         return replace(self, events=events)
@@ -68,6 +70,7 @@ class Drill:
             "start_deg": list(self.start_deg),
             "tables": self.tables,
             "commissioning": self.commissioning,
+            **({"left_alone": True} if self.left_alone else {}),
             "seed": self.seed,
         }
         rows = ",\n".join(f"  {json.dumps([each.at_s, each.who, each.what, *each.args])}" for each in self.events)
@@ -88,6 +91,7 @@ class Drill:
                 start_deg=(float(azimuth_deg), float(elevation_deg)),
                 tables=content["tables"],
                 commissioning=content["commissioning"],
+                left_alone=bool(content.get("left_alone", False)),
                 events=tuple(Event(float(row[0]), row[1], row[2], tuple(row[3:])) for row in content["events"]),
                 seed=content["seed"],
             )

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from benchmarks.drills.goals import AxisOrders, Goal, Ranges
-from benchmarks.drills.script import LINKS, Event
+from benchmarks.drills.script import LINKS, PAGE, Event
 
 TRACK, FOLLOW = "track", "follow"
 RESTS_S = 600.0 - 1.0
@@ -34,6 +34,8 @@ class Tracked:
         self._follows_at_start = self._follows = follows
         self._asked_s: float | None = None
         """When a person asked to track; None: nothing is tracked."""
+        self._by_page = False
+        """A person on the page asked, and no other sender has sent anything since."""
         self._before: set[str] = set()
         """The senders whose orders were in force then: they may send on until the plan is ready."""
         self._rests_until_s = -math.inf
@@ -53,8 +55,14 @@ class Tracked:
             self._asked_s = None
         self._rests_until_s = now_s + RESTS_S
 
+    def page_lost(self, now_s: float) -> None:
+        """The page hangs: what a person tracks there ends, also while its plan is computed."""
+        if self._by_page and self._asked_s is not None and now_s - self._asked_s > TAKES_S:
+            self._end(now_s)
+
     def note(self, event: Event, *, takes: bool) -> None:
         """Note one order. `takes`: nothing holds back an order of a link."""
+        self._by_page = event.who == PAGE and (event.what == "track" or (self._by_page and event.what != "give-back"))
         match event.what:
             case "track" if event.text(0) == "off":
                 self._end(event.at_s)

@@ -11,9 +11,9 @@ from typing import Any
 
 from benchmarks.drills.arcs import Arc
 from benchmarks.drills.boxes import BOTH, RELAYS, Mast
-from benchmarks.drills.script import OTHER_LINKS, Event
+from benchmarks.drills.script import OTHER_LINKS, PAGE, Event
 
-SENSORS_SHARE, SECTORS_SHARE, LINKS_SHARE, TABLES_SHARE, HOURS_SHARE = 0.15, 0.1, 0.25, 0.3, 0.0025
+SUPPLY_SHARE, SENSORS_SHARE, SECTORS_SHARE, LINKS_SHARE, TABLES_SHARE, HOURS_SHARE = 0.15, 0.15, 0.1, 0.25, 0.3, 0.0025
 REPLACED = ("gs232a", "easycomm2", "easycomm3", "pstrotator")
 ORDERS_MOST = 6
 MCP3208 = {"adc": {"kind": "mcp3208"}}
@@ -102,11 +102,13 @@ def relinked(chance: random.Random, events: list[Event]) -> list[Event]:
 def tabled(chance: random.Random, events: list[Event]) -> list[Event]:
     """The same events, with some tracked arcs replaced by timed tables of their directions."""
     return [
-        replace(event, args=(_table(event),))
-        if event.what == "track" and event.text(0).startswith("arc") and chance.random() < TABLES_SHARE
-        else event
+        replace(event, args=(_table(event),)) if _may_be_table(event) and chance.random() < TABLES_SHARE else event
         for event in events
     ]
+
+
+def _may_be_table(event: Event) -> bool:
+    return event.what == "track" and event.who != PAGE and event.text(0).startswith("arc")
 
 
 def _table(event: Event) -> str:
@@ -139,5 +141,13 @@ def _merged(tables: dict[str, Any], more: dict[str, Any]) -> dict[str, Any]:
     return tables | {name: {**tables.get(name, {}), **keys} for name, keys in more.items()}
 
 
+def supplied(chance: random.Random, mast: Mast) -> Mast:
+    """The same box, with an input of its converter that measures the pots' supply."""
+    kind = mast.tables.get("adc", {}).get("kind", "ads1115")
+    if not mast.has_pots or kind != "ads1115" or chance.random() >= SUPPLY_SHARE:
+        return mast
+    return replace(mast, tables=_merged(mast.tables, {"adc": {"reference_channel": 2}}))
+
+
 def unusual(chance: random.Random, mast: Mast) -> Mast:
-    return fenced(chance, sensed(chance, mast))
+    return supplied(chance, fenced(chance, sensed(chance, mast)))

@@ -63,6 +63,7 @@ def build_controller(
     learnt: Mapping[Axis, Motors] | None = None,
     commissioning: Axis | None = None,
     *,
+    attended: bool = True,
     trusts: Mapping[Axis, Trusts] | None = None,
     tries: Mapping[Axis, Tries] | None = None,
     latch: Latch | None = None,
@@ -71,11 +72,12 @@ def build_controller(
     """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays; `tries`: what
     it tried its motors for in vain; `latch`: the stop that was latched when it ended.
 
-    `commissioning`: an axis to be treated as never set up.
+    `commissioning`: an axis to be treated as never set up. `attended`: a person sets it up, and watches the antenna.
 
     `panel`: a panel runs as well, and reports its mode switch. A rehearsal and a calibration have none, and no mode.
     """
     mount, known = build_mount(config), learnt or {}
+    attended = attended and commissioning is not None
     azimuth, elevation = (
         axis_settings(
             config,
@@ -85,7 +87,7 @@ def build_controller(
             (trusts or {}).get(axis, ALL_OPEN),
             tries=(tries or {}).get(axis, NO_TRIES),
             commissioning=axis is commissioning,
-            attended=commissioning is not None,
+            attended=attended,
         )
         for axis, limits in ((Axis.AZIMUTH, mount.azimuth), (Axis.ELEVATION, mount.elevation))
     )
@@ -100,7 +102,7 @@ def build_controller(
             on_sky=config.mount.tolerance == "sky",
             latch=latch,
             mode=Mode.PARK if panel and config.panel.has_mode_switch else Mode.AUTO,
-            attended=commissioning is not None,
+            attended=attended,
         )
     )
 

@@ -19,6 +19,8 @@ IN_MEMORY = "-in-memory"
 AGAIN_S = 10.0
 """Seconds of pause after a failed write before the same is tried again. Something new does not wait: the file has a
 second place, in memory."""
+LOOKS_S = 10.0
+"""So often the same is saved again, which writes nothing unless another program has changed the file."""
 JOIN_S = 2.0
 
 
@@ -78,7 +80,7 @@ class LatchThread(Generic[T]):
         last_try = False
         while True:
             with self._news:
-                self._news.wait_for(lambda: self._unwritten)
+                self._news.wait_for(lambda: self._unwritten, LOOKS_S)
             with self._sparing, self._news:
                 self._unwritten = self._unspared = False
                 self._writing, newest = True, self._newest

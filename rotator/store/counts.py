@@ -152,7 +152,8 @@ class CountsFile:
         self._stood[axis] = (since_s, angle_deg)
         place = _known(angle_deg)
         needed_s = REST_S if now_s - self._rested_s[axis] >= REST_EVERY_S else LONG_REST_S
-        if place != self._written[axis] and now_s - since_s >= needed_s and self._write(axis, place):
+        different = place != self._written[axis] or self._file.changed
+        if different and now_s - since_s >= needed_s and self._write(axis, place):
             self._rested_s[axis] = now_s
 
     def close(self) -> None:
@@ -161,7 +162,7 @@ class CountsFile:
             self.lose(axis)
         for axis, (_, angle_deg) in self._stood.items():
             place = _known(angle_deg)
-            if place != self._written[axis]:
+            if place != self._written[axis] or self._file.changed:
                 self._write(axis, place)
 
     def _write(self, axis: Axis, place: Place) -> bool:

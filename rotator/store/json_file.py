@@ -68,6 +68,8 @@ class JsonFile:
         """The reason of the last failed write; empty after a good one."""
         self._form = form
         self._what = what
+        self._seen: tuple[int, ...] | None = None
+        """The mark of the file as it was read or written last; None: there was none."""
         self._later = ""
         """Why the file belongs to another version, and stays as it is; empty: it is of this version."""
 
@@ -77,6 +79,7 @@ class JsonFile:
         `consequence`: for the log: the effect of a damaged file on the box.
         """
         try:
+            self._seen = self._mark()
             return decode(self._form, self._text(), parse)
         except FileNotFoundError:
             return absent
@@ -87,6 +90,19 @@ class JsonFile:
         except (OSError, ValueError) as fault:
             log.warning("%s: %s: %s", self.path, consequence, fault)
             return damaged
+
+    @property
+    def changed(self) -> bool:
+        """Whether another program or a person has changed, emptied or deleted the file since. What the box knows stays,
+        and is to be written again."""
+        return not self.trouble and self._mark() != self._seen
+
+    def _mark(self) -> tuple[int, ...] | None:
+        try:
+            now = self.path.stat()
+        except OSError:
+            return None
+        return now.st_ino, now.st_size, now.st_mtime_ns
 
     def _text(self) -> str:
         """The text of the file. Raises OSError; ValueError: no text, or too large."""
@@ -105,6 +121,7 @@ class JsonFile:
                 raise OSError(self._later)
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(self.path, encode(self._form, content))
+            self._seen = self._mark()
         except OSError as fault:
             if str(fault) != self.trouble:
                 log.error("%s: %s cannot be kept: %s", self.path, self._what, fault)

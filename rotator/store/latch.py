@@ -57,8 +57,11 @@ class LatchFile:
         return Latch(latch.by.removesuffix(BEFORE) + BEFORE, storm=latch.storm)
 
     def save(self, latch: Latch | None) -> bool:
-        """Write it, unless the file already has it: a repeated stop is the same stop. False: the write failed."""
-        if self._kept is _kind(latch):
+        """Write it, unless the file already has it: a repeated stop is the same stop. False: the write failed.
+
+        Call it again now and then: another program may have changed the file.
+        """
+        if self._kept is _kind(latch) and not self._file.changed:
             return True
         done = self._file.save(_content(latch))
         self._kept = _kind(latch) if done else Kept.UNKNOWN

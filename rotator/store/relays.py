@@ -80,13 +80,14 @@ class RelaysFile:
         )
 
     def save(self, trusts: Mapping[Axis, Trusts], *, ending: bool = False) -> bool:
-        """Write it, if it has changed. `ending`: the program ends properly, and no relay is closed any more.
+        """Write it, if it or the file has changed. `ending`: the program ends properly, and no relay is closed any
+        more.
 
         False: the card refuses.
         """
         with self._saving:
             kept = {axis: after(each, proper=ending) for axis, each in trusts.items()}
-            if kept != self._written:
+            if kept != self._written or self._file.changed:
                 self._written = kept if self._file.save(_content(kept)) else {}
             return bool(self._written)
 

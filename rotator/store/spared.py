@@ -45,6 +45,11 @@ class SparedFile:
         return not self._card.trouble or (self._memory is not None and not self._memory.trouble)
 
     @property
+    def changed(self) -> bool:
+        """Whether the file on the card is not the one that was read or written there last."""
+        return self._card.changed
+
+    @property
     def in_memory(self) -> bool:
         """Whether an earlier run in this boot left something newer than what is on the card."""
         try:

@@ -86,7 +86,8 @@ class TriesFile:
         """Write the changes. False: the card has not taken them; call it again after a pause, with the same."""
         counted = {axis: replace(each, driven=False) for axis, each in tries.items()}
         again, self._last = tries == self._last, dict(tries)
-        if counted != self._written and (not self._refuses(counted) or again):
+        different = counted != self._written or self._file.changed
+        if different and (not self._refuses(counted) or again):
             # After a refusal it is not known what is on the card: so the next content is always written.
             kept = self._file.save(self._content(counted))
             self._written, self._refused = (counted, None) if kept else (None, counted)
