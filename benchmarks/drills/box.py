@@ -167,10 +167,10 @@ class Box:
             self._sessions.pop(who)[1].left()
             del self._sources[who]
 
-    def recognise(self, who: str, words: str) -> None:
-        """The orders of this program have been recognised as an arc."""
+    def recognise(self, who: str, words: str, *, waits: bool) -> None:
+        """The orders of this program have been recognised as an arc; `waits`: for its rise."""
         if who in self._sources:
-            self.tracking.recognise(self._sources[who], words)
+            self.tracking.recognise(self._sources[who], words, waits=waits)
 
     def act(self) -> None:
         """The control thread is woken by an order."""

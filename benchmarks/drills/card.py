@@ -64,6 +64,8 @@ class Card:
         before, self._state = self._state, state
         if before == HANGS:
             self._let_go()
+            for lane in self._lanes:
+                lane.catch_up()
         for name in NAMES:
             where = self.folder / (name + NEW)
             if before == REFUSES and where.is_dir():

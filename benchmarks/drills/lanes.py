@@ -50,12 +50,14 @@ class Lane:
                 self._thread = None
 
     def join(self) -> None:
-        """The hang ends: do all that has waited."""
-        if self._thread is None:
-            return
-        self._thread.join(GIVES_UP_S)
-        assert not self._thread.is_alive(), "the write has not returned"
-        self._thread = None
+        """The hang ends: wait for the job that waited for the card."""
+        if self._thread is not None:
+            self._thread.join(GIVES_UP_S)
+            assert not self._thread.is_alive(), "the write has not returned"
+            self._thread = None
+
+    def catch_up(self) -> None:
+        """Do the jobs that came meanwhile."""
         while self._jobs:
             self._jobs.popleft()()
 

@@ -142,7 +142,7 @@ class Orders(InForce):
                     return
             case "stop":
                 self._silenced.stop(event)
-            case "ask" | "junk" | "speed" | "recognised":
+            case "ask" | "junk" | "speed" | "recognised" | "waits":
                 pass
             case _:
                 self._silenced.other(event)

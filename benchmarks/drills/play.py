@@ -213,9 +213,9 @@ class _Play:
         elif event.what == "leave":
             self._orders.note(event)
             self._box.leave(event.who)
-        elif event.what == "recognised":
+        elif event.what in ("recognised", "waits"):
             self._orders.note(event)
-            self._box.recognise(event.who, event.text(0))
+            self._box.recognise(event.who, event.text(0), waits=event.what == "waits")
         else:
             if event.what == "confirm":
                 event = self._confirmed(event)

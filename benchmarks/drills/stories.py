@@ -95,7 +95,7 @@ class Story:
             case 10 | 11:
                 self._track()
             case 12:
-                self._recognised()
+                (self._recognised, self._waits)[self._chance.randrange(2)]()
             case 4 if "gs232" in self._link:
                 self._add(self._link, "list", 2.0, *aim_deg, self._near(0), self._near(1), *aim_deg)
                 self._pause()
@@ -176,6 +176,21 @@ class Story:
         self._add(self._link, "arc", words, every_s, round(self._chance.choice((20.0, 60.0, 90.0)) / every_s))
         self.ends_s += self._chance.choice((2.0, 5.0, 15.0))
         self._add(self._link, "recognised", words)
+        self._pause()
+
+    def _waits(self) -> None:
+        """A program waits at the horizon for a rise. The box gives it the turn that the whole pass needs."""
+        lasts_s, rises_s = self._chance.choice((40.0, 120.0, 300.0)), self._chance.choice((10.0, 30.0, 60.0))
+        azimuth_deg, top_deg = (
+            self._chance.choice((0, 10, 170, self._chance.randrange(360))),
+            self._chance.choice((30, 85)),
+        )
+        side = self._chance.choice((-1, 1))
+        words = f"arc {self.ends_s + rises_s:.1f} {lasts_s:g} 600 {azimuth_deg} {side} {top_deg}"
+        self._add(CLOCK, "plans", self._chance.choice((0.1, 1.0, 3.0)))
+        self._add(self._link, "arc", words, 1.0, round(rises_s + self._chance.choice((0.0, 20.0, 60.0))))
+        self.ends_s += self._chance.choice((2.0, 5.0, 9.0))
+        self._add(self._link, "waits", words)
         self._pause()
 
     def _waver(self) -> None:

@@ -73,7 +73,7 @@ class Tracked:
                 self._asked_s = event.at_s
                 self._before = {sender for orders in self._axes.values() for sender in orders.goals}
                 self.keep(event.at_s)
-            case "recognised":
+            case "recognised" | "waits":
                 self._recognise(event)
             case "give-back":
                 self._rests_until_s = -math.inf  # the plan of the day has the antenna back

@@ -17,11 +17,12 @@ from rotator.assembly.tracking import TrackedBox
 from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.mount import Mount
-from rotator.exchange.flight_order import Fly, Stream
+from rotator.exchange.flight_order import Fly, Stream, TakeTurn
 from rotator.exchange.orders import Order
 from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.follower import Follower
+from rotator.tracking.listener import LED_S
 from rotator.tracking.next_flight import NextFlight, Now, Wanted
 from rotator.tracking.next_followed import Upcoming, WantedOften
 from rotator.tracking.program import Program, program_flight
@@ -82,7 +83,8 @@ class DrilledTracking:
         followed = tuple(WantedOften(Wanted(each.name, SITE, None), 1.0, 0.0) for each in config.sky.follow)
         self._follower = Follower(self.tracker, self.planner, self._box, lambda: followed)
         loop.overhear(self._hear)
-        self._recognised: deque[tuple[Source, str]] = deque()
+        self._recognised: deque[tuple[Source, str, bool]] = deque()
+        """The source, the words of the arc, and whether the source waits for its rise."""
         self._due_s = clock()
         self._ending = False
         self._failure: BaseException | None = None
@@ -90,9 +92,10 @@ class DrilledTracking:
         self._thread = threading.Thread(target=self._run, name="tracking", daemon=True)
         self._thread.start()
 
-    def recognise(self, source: Source, words: str) -> None:
-        """The orders of this source have been recognised: plan the flight. This plan comes late too."""
-        self._recognised.append((source, words))
+    def recognise(self, source: Source, words: str, *, waits: bool) -> None:
+        """The orders of this source have been recognised: plan the flight; this plan comes late too. `waits`: the
+        source waits for the rise, and only gets the turn that the whole pass needs."""
+        self._recognised.append((source, words, waits))
 
     def turn(self) -> None:
         """Let the thread run until it waits again. Raises the thread's exception, if any."""
@@ -121,20 +124,32 @@ class DrilledTracking:
             while not self._ending:
                 self._wait(LOOK_S)
                 if self._recognised:
-                    self._fly_recognised(*self._recognised.popleft())
+                    source, words, waits = self._recognised.popleft()
+                    self._answer(source, words, waits=waits)
                 self.tracker.step(self._now())
                 self._follower.step(self._now())
         except BaseException as failure:
             self._failure = failure
         self._back.release()
 
-    def _fly_recognised(self, source: Source, words: str) -> None:
-        if (antenna := self._box.antenna()) is not None:
-            try:
-                order = self.planner.plan_rest(Wanted(words, SITE, None), antenna, self._now())
-            except RuntimeError:
-                return
-            self._box.order(replace(order, stream=RECOGNISED), source)
+    def _answer(self, source: Source, words: str, *, waits: bool) -> None:
+        if (antenna := self._box.antenna()) is None:
+            return
+        try:
+            self._box.order(self._turn(words, antenna) if waits else self._rest(words, antenna), source)
+        except RuntimeError:
+            return  # as drilled
+
+    def _rest(self, words: str, antenna: Antenna) -> Fly:
+        order = self.planner.plan_rest(Wanted(words, SITE, None), antenna, self._now())
+        return replace(order, stream=RECOGNISED)
+
+    def _turn(self, words: str, antenna: Antenna) -> TakeTurn:
+        now = self._now()
+        flight = self.planner.plan(Wanted(words, SITE, None), antenna, now)
+        azimuth_deg, elevation_deg = flight.order.azimuth.angles_deg[0], flight.order.elevation.angles_deg[0]
+        flipped = antenna.mount.model.over_the_top(elevation_deg)
+        return TakeTurn(azimuth_deg, flipped, flight.begin_utc_s - now.apart_s + LED_S)
 
     def _now(self) -> Now:
         return Now(self._clock() + self.ahead_s, self._clock())
