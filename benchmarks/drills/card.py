@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import shutil
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -93,19 +93,32 @@ class Card:
             if (path := self.folder / name).exists():
                 self._older[name] = path.read_bytes()
 
-    def put_back(self, now_s: float, names: tuple[str, ...]) -> list[str]:
-        """The program has ended. A person puts back those of these files that were changed so late that the box could
-        not write them again. Returns the others that were."""
+    def end_program(self, now_s: float, end: Callable[[], None], *, killed: bool) -> bool:
+        """The program ends. Returns whether the file of its stop is spoilt."""
+        if killed or self.hangs:
+            with self._as_it_is():
+                end()
+        else:
+            end()
+        self._lanes.clear()
+        spoilt = self._put_back(now_s)
+        if self._state == REFUSES_LATER:
+            self.become(REFUSES)
+        return spoilt
+
+    def _put_back(self, now_s: float) -> bool:
+        """A person puts back what was changed so late that the box could not write it again: a box that counts and one
+        with a weld cannot know better than their files."""
         late = {name: before for name, (at_s, before) in self._changed.items() if now_s - at_s < NOTICES_S}
         self._changed.clear()
-        for name in names:
+        for name in (counts.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME):
             if (before := late.get(name)) is not None:
                 (self.folder / name).write_bytes(before)
-        return [name for name in late if name not in names]
+        return latch.FILE_NAME in late
 
     @contextmanager
-    def program_ends(self) -> Iterator[None]:
-        """Within it the program ends: what its threads still wait for is never written. A new run begins after it."""
+    def _as_it_is(self) -> Iterator[None]:
+        """Within it the program ends: what its threads still wait for is never written."""
         kept = [(folder, folder.with_name(f"kept-{folder.name}")) for folder in (self.folder, self.memory)]
         for folder, copy in kept:
             shutil.copytree(folder, copy, ignore=_pipes)
@@ -121,15 +134,6 @@ class Card:
             self.become(HANGS)
         else:
             self._state = state
-
-    def lanes_end(self) -> None:
-        """The program has ended, and its threads with it."""
-        self._lanes.clear()
-
-    def begins_to_refuse(self) -> None:
-        """The program has ended."""
-        if self._state == REFUSES_LATER:
-            self.become(REFUSES)
 
     def _let_go(self) -> None:
         """End the hang: every write that is under way fails."""

@@ -19,24 +19,20 @@ from benchmarks.drills.befall import WorldEvents
 from benchmarks.drills.box import Box
 from benchmarks.drills.card import WORKS, Card
 from benchmarks.drills.configured import configured
-from benchmarks.drills.event_loops import EventLoop
+from benchmarks.drills.hearing import Hearing
 from benchmarks.drills.judges import Judges, Violation
 from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse
-from benchmarks.drills.script import CLOCK, PAGE, PANEL, PROGRAM, WORLD, Drill, Event
+from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
 from benchmarks.drills.sectors import Sectors
 from benchmarks.drills.silence import Silence, Words
-from benchmarks.drills.speech import parts, said
 from benchmarks.drills.trouble import Troubles
 from benchmarks.drills.world import World
 from firmware_sim.clock import SimClock
-from rotator.store import counts, latch, relays, tries
 
 STARTED_S = 1000.0
 STEP_S = 0.05
 """How often the world is looked at while no control cycle comes."""
 FAILS = "the program ends with an exception, or its sentinel kills it"
-MOST_ACTS_S = 0.01
-"""Orders within this time are taken together, as by the real control thread, which takes a moment to wake."""
 
 
 @dataclass(slots=True)
@@ -97,8 +93,7 @@ class _Play:
         self._blind = False
         """The reading thread hangs."""
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
-        self._links, self._page = EventLoop(), EventLoop()
-        self._acted_s = -1.0
+        self._hearing = Hearing(self._box, self._world, self._orders, self._cases)
         self._acknowledged_s = 0.0
         self._back_s = 0.0
         """When the program last started: events that were sent before are lost."""
@@ -136,7 +131,7 @@ class _Play:
                     next_s = self._now_s
                 continue
             self._sleep_until(next_s)
-            self._tick()
+            self._hearing.tick(self._now_s)
             self._box.tracking.turn()
             self._cycle()
             self._look()
@@ -191,52 +186,7 @@ class _Play:
                 words = [f"{word:.3f}" if isinstance(word, float) else str(word) for word in (event.what, *event.args)]
                 self._box.hand(words)
             case _ if event.at_s - late_s >= self._back_s:
-                self._hear(event)
-
-    def _tick(self) -> None:
-        """The event loops tick, or stand still."""
-        if self._links.lost(self._now_s):
-            self._orders.links_lost(self._now_s)
-        if self._page.lost(self._now_s):
-            self._orders.page_lost(self._now_s)
-        late = self._links.tick(self._now_s, self._box.events), self._page.tick(self._now_s, self._box.page_events)
-        for event in (*late[0], *late[1]):
-            self._hear(replace(event, at_s=self._now_s))
-
-    def _hear(self, event: Event) -> None:
-        """Bytes of a link or a person: they wake the control thread, as any order does."""
-        if not (self._page if event.who == PAGE else self._links).takes(event):
-            return
-        if parts(event) != [event]:
-            for part in parts(event):
-                self._hear(part)
-        elif event.what == "leave":
-            self._orders.note(event)
-            self._box.leave(event.who)
-        elif event.what in ("recognised", "waits"):
-            self._orders.note(event)
-            self._box.recognise(event.who, event.text(0), waits=event.what == "waits")
-        else:
-            if event.what == "confirm":
-                event = self._confirmed(event)
-            if event.what == "relays-checked" and self._world.axes[event.text(0) == "elevation"].welded:
-                return  # a person who looks at the relays sees the weld, and does not say that all are open
-            if not (data := said(event)):
-                return
-            self._orders.note(event)
-            if event.what == "calibrate":
-                self._cases[0 if event.text(0) == "azimuth" else 1].trusted = False  # a person says where it stands
-            self._box.hear(event.who, data)
-        if self._now_s - self._acted_s >= MOST_ACTS_S:
-            self._acted_s = self._now_s
-            self._box.loop.act()
-
-    def _confirmed(self, event: Event) -> Event:
-        """A person reads the antenna's angle, with the error in degrees that the event gives."""
-        place = 0 if event.text(0) == "azimuth" else 1
-        angle_deg = self._world.axes[place].shaft_deg + self._cases[place].shift_deg + event.number(1)
-        self._cases[place].slack_deg += abs(event.number(1))
-        return replace(event, args=(event.text(0), angle_deg))
+                self._hearing.hear(event)
 
     def _be_late(self, event: Event) -> None:
         seconds = event.number(0)
@@ -246,10 +196,8 @@ class _Play:
             case "hung":
                 self._blind, self._blind_until_s = True, self._now_s + seconds
                 self._silence.begin("hung", self._now_s)
-            case "stalled":
-                self._links.stall(self._now_s, seconds, self._box.events)
-            case "page-stalled":
-                self._page.stall(self._now_s, seconds, self._box.page_events)
+            case "stalled" | "page-stalled":
+                self._hearing.stall(self._now_s, seconds, page=event.what == "page-stalled")
             case "plans":
                 self._box.tracking.planner.takes_s = seconds
             case "plans-fail":
@@ -262,24 +210,13 @@ class _Play:
     def _restart(self, event: Event) -> None:
         """The program ends, and starts again after the seconds that the event gives. Only the files in its folder
         remain."""
-        if event.what == "kill":
-            with self._card.program_ends():
-                self._box.die()
-        elif self._card.hangs:
-            with self._card.program_ends():
-                self._box.end()
-        else:
-            self._box.end()
-            self._card.lanes_end()
-        # A box that counts and one with a weld cannot know better than their files.
-        if latch.FILE_NAME in self._card.put_back(self._now_s, (counts.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME)):
+        killed = event.what == "kill"
+        if self._card.end_program(self._now_s, self._box.die if killed else self._box.end, killed=killed):
             self._orders.stops.spoil()
-        self._card.begins_to_refuse()
-        for loop in (self._links, self._page):
-            loop.begin_anew()
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._card, self._clock, self._box.world, begun_s=STARTED_S)
+        self._hearing.begin_anew(self._box)
         self._card.program_begins()
         self._back_s = self._now_s
         begins_anew(self._config, self._cases, self._world.axes)
