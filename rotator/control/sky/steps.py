@@ -5,8 +5,10 @@ nothing of sensors, relays or the sky.
 
 An on/off motor follows a path in steps: it stands while the target passes by, and then moves on. For an infinitely fast
 motor the best steps are the best piecewise constant curve through the path, with a price for each piece. That curve is
-found exactly, by dynamic programming over the moments of change (`_pieces`). A real motor needs time to turn. So each
-step is then shifted in time and in place while the error of the real motor becomes smaller (`_Settling`).
+found exactly, by dynamic programming over the moments of change (`_pieces`). A beginning of the last piece that costs a
+start more than the best one will never become the best again, so it is not tried further: Killick and others, "Optimal
+detection of changepoints with a linear computational cost", 2012. A real motor needs time to turn. So each step is then
+shifted in time and in place while the error of the real motor becomes smaller (`_Settling`).
 """
 
 from __future__ import annotations
@@ -20,8 +22,6 @@ from rotator.exchange.flight_order import PLAN_STEP_S, Step
 
 LONGEST_S = 240.0
 """The longest piece of the curve. If the motor stands for longer, two pieces have the same place."""
-HOPELESS = 50.0
-"""A piece is not made longer once its error costs as much as this many starts."""
 ROUNDS = 5
 FIRST_SHIFT_S, FIRST_SHIFT_DEG = 2.0, 1.0
 FINER = 1.7
@@ -63,19 +63,16 @@ def _pieces(trail: Trail, price: float) -> list[Step]:
     sums = [0.0, *accumulate(shares)]
     firsts = [0.0, *accumulate(share * deg for share, deg in zip(shares, relative, strict=True))]
     seconds = [0.0, *accumulate(share * deg * deg for share, deg in zip(shares, relative, strict=True))]
-    longest, hopeless = int(LONGEST_S / PLAN_STEP_S), HOPELESS * price
-    costs, froms = [0.0], [0]
+    longest = int(LONGEST_S / PLAN_STEP_S)
+    costs, froms, begins = [0.0], [0], [0]
     for end in range(1, len(relative) + 1):
-        least, start = math.inf, end - 1
-        for begin in range(end - 1, max(-1, end - longest - 1), -1):
-            first = firsts[end] - firsts[begin]
-            error = seconds[end] - seconds[begin] - first * first / (sums[end] - sums[begin])
-            if error > hopeless:
-                break
-            if costs[begin] + error < least:
-                least, start = costs[begin] + error, begin
+        total, first, second = sums[end], firsts[end], seconds[end]
+        tried = [costs[at] + second - seconds[at] - (first - firsts[at]) ** 2 / (total - sums[at]) for at in begins]
+        least = min(tried)
+        froms.append(begins[tried.index(least)])
         costs.append(least + price)
-        froms.append(start)
+        begins = [at for at, cost in zip(begins, tried, strict=True) if cost < least + price and at > end - longest]
+        begins.append(end)
     steps, end = [], len(relative)
     while end:
         begin = froms[end]
@@ -119,8 +116,9 @@ class _Settling:
         shift_s, shift_deg = FIRST_SHIFT_S, FIRST_SHIFT_DEG
         for _ in range(ROUNDS):
             for index, _ in enumerate(self._steps):
+                error = self._error_around(index)
                 for by_s, by_deg in ((shift_s, 0.0), (-shift_s, 0.0), (0.0, shift_deg), (0.0, -shift_deg)):
-                    self._shift(index, by_s, by_deg)
+                    error = self._shift(index, by_s, by_deg, error)
             shift_s, shift_deg = shift_s / FINER, shift_deg / FINER
         return self._steps
 
@@ -137,32 +135,45 @@ class _Settling:
         first = pieces[0] if not begun or begun[0].leave_s > pieces[0].leave_s else begun.pop(0)
         return [first, *begun]
 
-    def _shift(self, index: int, by_s: float, by_deg: float) -> None:
-        """Shift one step. Take that back if the error around it does not fall."""
+    def _shift(self, index: int, by_s: float, by_deg: float, error: float) -> float:
+        """Shift one step. Take that back if the error around it does not fall. Returns the error then."""
         before = self._steps[index]
         after = Step(before.leave_s + by_s, before.place_deg + by_deg)
         earliest_s = self._steps[index - 1].leave_s if index else -math.inf
         end_s = PLAN_STEP_S * len(self._trail.angles_deg)
         latest_s = self._steps[index + 1].leave_s if index + 1 < len(self._steps) else end_s
         if (by_s and not index) or not earliest_s < after.leave_s < latest_s:
-            return
-        error = self._error_around(index)
+            return error
         self._steps[index] = after
-        if self._error_around(index) >= error:
-            self._steps[index] = before
+        shifted_error = self._error_around(index)
+        if shifted_error < error:
+            return shifted_error
+        self._steps[index] = before
+        return error
 
     def _error_around(self, index: int) -> float:
         """The weighted squared error from the step before this one to the second step after it."""
         steps, travel_deg = self._steps, self._speed_dps * PLAN_STEP_S
-        at, until = max(0, index - 1), index + 2
-        angle_deg = steps[max(0, at - 1)].place_deg
-        begin = math.ceil(steps[at].leave_s / PLAN_STEP_S)
-        end = math.ceil(steps[until].leave_s / PLAN_STEP_S) if until < len(steps) else len(self._trail.angles_deg)
+        angles_deg, weights = self._trail.angles_deg, self._trail.weights
+        angle_deg = steps[max(0, index - 2)].place_deg
         error = 0.0
-        for moment in range(begin, end):
-            while at + 1 < len(steps) and steps[at + 1].leave_s <= moment * PLAN_STEP_S:
-                at += 1
-            off_deg = self._trail.angles_deg[moment] - angle_deg
-            error += self._trail.weights[moment] * off_deg * off_deg
-            angle_deg += max(-travel_deg, min(travel_deg, steps[at].place_deg - angle_deg))
+        for at in range(max(0, index - 1), min(index + 2, len(steps))):
+            place_deg = steps[at].place_deg
+            begin, end = self._moment(at), self._moment(at + 1)
+            for moment in range(begin, end):
+                off_deg = angles_deg[moment] - angle_deg
+                error += weights[moment] * off_deg * off_deg
+                ahead_deg = place_deg - angle_deg
+                if ahead_deg > travel_deg:
+                    angle_deg += travel_deg
+                elif ahead_deg < -travel_deg:
+                    angle_deg -= travel_deg
+                else:
+                    angle_deg = place_deg
         return error
+
+    def _moment(self, at: int) -> int:
+        """The first moment of the trail at which this step is in force; behind the last step, the trail's end."""
+        if at == len(self._steps):
+            return len(self._trail.angles_deg)
+        return math.ceil(self._steps[at].leave_s / PLAN_STEP_S)
