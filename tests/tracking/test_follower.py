@@ -26,15 +26,15 @@ PC, PERSON, PAGE = Source("gs232b", 1), Source("console", 1), Source("page", 1)
 
 @pytest.fixture
 def rise() -> Box:
-    """Three minutes before the ISS rises."""
+    """The ISS rises in 110 s; the antenna, which is 220° away, sets off in 16 s."""
     found = pass_of("iss")
     assert found.aos_s is not None
-    return Box(found.aos_s - 180.0, follow=FOLLOWS_ISS)
+    return Box(found.aos_s - 110.0, follow=FOLLOWS_ISS)
 
 
 def test_it_sets_off_in_time_and_stands_waiting_15_s_before_the_rise(rise: Box) -> None:
     assert rise.loop.status.controlled_by == "", "not before it has to"
-    rise.wait(164.0)
+    rise.wait(94.0)
     status = rise.loop.status
     assert status.controlled_by == "track"
     assert status.flown is not None
@@ -48,7 +48,7 @@ def test_after_a_start_it_rests_for_ten_minutes_for_a_link_may_have_stopped_the_
     found = pass_of("iss")
     assert found.aos_s is not None
     box = Box(found.aos_s - 180.0, follow=FOLLOWS_ISS, restarted=True)
-    box.wait(590.0)
+    box.rest(590.0)
     assert box.world.antenna() == (10.0, 0.0)
     later = pass_of("iss", after_s=box.utc_s + 120.0)
     assert later.aos_s is not None
@@ -62,14 +62,14 @@ def test_after_a_start_it_rests_for_ten_minutes_for_a_link_may_have_stopped_the_
 def test_a_sender_that_takes_the_antenna_has_it_for_ten_minutes_and_the_next_pass_is_flown_again(
     rise: Box, source: Source, order: Aim | Stop
 ) -> None:
-    rise.wait(170.0)
+    rise.wait(100.0)
     rise.loop.post(source, order)
     rise.wait(10.0)
     rise.loop.post(PERSON, Release())
     rise.wait(60.0)
     assert rise.loop.status.controlled_by != "track"
     rise.set_clock(24 * 3600.0)
-    rise.wait(500.0)
+    rise.rest(500.0)
     assert rise.loop.status.controlled_by != "track"
     found = pass_of("iss", after_s=rise.utc_s + 120.0)
     assert found.aos_s is not None
@@ -80,19 +80,19 @@ def test_a_sender_that_takes_the_antenna_has_it_for_ten_minutes_and_the_next_pas
 
 def test_a_stop_that_comes_while_it_plans_is_not_undone_by_the_plan(rise: Box) -> None:
     def meanwhile() -> None:
-        if rise.utc_s > set_off_s:
+        if rise.utc_s > planned_s:
             rise.loop.post(PC, Stop())
             rise.loop.cycle()
 
-    set_off_s = rise.utc_s + 60.0
+    planned_s = rise.utc_s + 10.0
     rise.planner.meanwhile = meanwhile
-    rise.wait(175.0)
+    rise.wait(105.0)
     assert rise.loop.status.flown is None
     assert rise.loop.status.controlled_by == ""
 
 
 def test_when_a_person_has_given_the_antenna_back_the_plan_goes_on_at_once(rise: Box) -> None:
-    rise.wait(170.0)
+    rise.wait(100.0)
     rise.loop.post(PAGE, Take())
     rise.wait(20.0)
     assert rise.loop.status.flown is None
@@ -105,13 +105,13 @@ def test_when_a_person_has_given_the_antenna_back_the_plan_goes_on_at_once(rise:
 def test_where_an_angle_is_not_known_at_its_first_look_it_looks_again_soon() -> None:
     found = pass_of("iss")
     assert found.aos_s is not None
-    late = Box(found.aos_s - 180.0, follow=FOLLOWS_ISS, read_after_s=5.0)
-    late.wait(170.0)
+    late = Box(found.aos_s - 110.0, follow=FOLLOWS_ISS, read_after_s=5.0)
+    late.wait(100.0)
     assert late.loop.status.flown is not None
 
 
 def test_off_ends_it_and_plan_begins_it_again(rise: Box) -> None:
-    rise.wait(170.0)
+    rise.wait(100.0)
     rise.tracker.off()
     rise.wait(30.0)
     assert rise.loop.status.flown is None
@@ -122,7 +122,7 @@ def test_off_ends_it_and_plan_begins_it_again(rise: Box) -> None:
 
 def test_a_target_that_a_person_names_comes_before_the_plan(rise: Box) -> None:
     assert rise.tracker.track("moon") == ""
-    rise.wait(175.0)
+    rise.wait(105.0)
     assert rise.loop.status.flown is not None
     assert rise.loop.status.flown.name == "Moon"
 
@@ -142,7 +142,7 @@ def test_a_request_for_the_plan_ends_other_tracking_and_the_next_pass_is_flown(r
     rise.wait(8.0)
     assert rise.loop.status.flown is None
     assert not rise.loop.status.moving
-    rise.wait(160.0)
+    rise.wait(90.0)
     assert rise.loop.status.flown is not None
     assert rise.loop.status.flown.name.startswith("ISS")
 
@@ -158,7 +158,7 @@ def test_a_flight_that_no_plan_has_replaced_yet_ends_too(rise: Box) -> None:
 
 
 def test_a_second_request_for_the_plan_leaves_its_flight_alone(rise: Box) -> None:
-    rise.wait(170.0)
+    rise.wait(100.0)
     heard: list[Order] = []
     rise.after_heard = heard.append
     assert asks(rise) == ""
@@ -172,7 +172,7 @@ def test_a_request_for_the_plan_ends_its_rest(rise: Box, source: Source | None) 
     rise.loop.post(source or PC, Aim(100.0, 10.0))
     rise.wait(5.0)
     assert asks(rise, source) == ""
-    rise.wait(165.0)
+    rise.wait(95.0)
     assert rise.loop.status.controlled_by == "track"
     assert rise.loop.status.held_by == ""
 
@@ -199,7 +199,7 @@ def test_the_reason_why_the_plan_is_not_flown_is_logged() -> None:
 
 def test_while_the_clock_may_be_wrong_nothing_moves(rise: Box) -> None:
     rise.clock_trusted = False
-    rise.wait(170.0)
+    rise.wait(100.0)
     assert rise.loop.status.controlled_by == ""
 
 
@@ -216,7 +216,7 @@ def test_a_stop_that_comes_right_before_the_flight_is_ordered_comes_after_it(ris
     follower.setLevel(logging.INFO)
     follower.addHandler(handler)
     try:
-        rise.wait(175.0)
+        rise.wait(105.0)
     finally:
         follower.removeHandler(handler)
         follower.setLevel(level)
@@ -227,7 +227,7 @@ def test_a_stop_that_comes_right_before_the_flight_is_ordered_comes_after_it(ris
 def test_a_new_order_of_the_targets_is_planned_at_once(rise: Box) -> None:
     plans: list[float] = []
     rise.planner.meanwhile = lambda: plans.append(rise.utc_s)
-    rise.wait(20.0)
+    rise.wait(10.0)
     assert plans == [], "a plan lasts for a while"
     rise.follower.plan_again()
     rise.wait(2.0)

@@ -38,10 +38,17 @@ FEBRUARY_S = 1_739_000_000.0
 """8 February 2025, 07:33:20 UTC: some days after the elements' epochs."""
 PERIOD_S = 0.1
 """Twice the usual one, for half the work: what is looked at here is who flies what and when, in seconds."""
+SELDOM_S = 0.5
 
 
 class InThisProcess:
-    """Plans at once. `plans`: each, with the moment at which it was made. `meanwhile` happens while it computes."""
+    """Plans at once. `plans`: each, with the moment at which it was made. `meanwhile` happens while it computes.
+
+    Boxes that begin at one moment ask for the same plans: each is computed once.
+    """
+
+    flight = staticmethod(cache(next_flight))
+    followed = staticmethod(cache(next_followed))
 
     def __init__(self) -> None:
         self.plans: list[tuple[Now, NextFlight]] = []
@@ -49,7 +56,7 @@ class InThisProcess:
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         self.meanwhile()
-        self.plans.append((now, next_flight(wanted, antenna, now)))
+        self.plans.append((now, self.flight(wanted, antenna, now)))
         return self.plans[-1][1]
 
     def plan_program(self, program: Program, antenna: Antenna, now: Now) -> NextFlight:
@@ -61,7 +68,7 @@ class InThisProcess:
 
     def plan_followed(self, followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
         self.meanwhile()
-        return next_followed(followed, antenna, now)
+        return self.followed(followed, antenna, now)
 
 
 class SlowSensors(TrackedBox):
@@ -152,6 +159,16 @@ class Box:
             self._listener.step(self._now)
             self.look()
         return until()
+
+    def rest(self, seconds: float) -> None:
+        """Let time pass while the antenna stands: the control loop looks seldom."""
+        end_s = self.clock() + seconds
+        while self.clock() < end_s:
+            self.clock.sleep(SELDOM_S)
+            self.loop.cycle()
+            assert not self.loop.status.moving
+            self._listener.step(self._now)
+            self.look()
 
     def look(self) -> None:
         """The tracking thread has its turn."""

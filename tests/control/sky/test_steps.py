@@ -68,6 +68,15 @@ def test_a_target_that_stands_needs_one_step() -> None:
     assert [step.place_deg for step in steps] == [pytest.approx(50.0)]
 
 
+@pytest.mark.parametrize(("price", "starts"), [(880.0, 1), (870.0, 3)])
+def test_a_target_that_goes_away_and_comes_back_is_followed_only_if_two_starts_cost_less(
+    price: float, starts: int
+) -> None:
+    """It stands for 20 s at each place. All in one piece, the error costs 1750 degrees squared times seconds."""
+    trail = Trail(0.0, [place_deg for place_deg in (0, 10, 0, 0, 0, 0, 0, 0) for _ in range(40)], [1.0] * 320)
+    assert len(best_steps(trail, FAST_DPS, price)) == starts
+
+
 @pytest.mark.parametrize("rate_dps", [0.1, -0.1, 0.5, -1.0])
 def test_a_steady_target_is_met_in_equal_steps_centred_on_it(rate_dps: float) -> None:
     """For a motor much faster than its target the least cost is at width³ = 6 × price × rate."""
