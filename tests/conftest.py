@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import signal
@@ -58,6 +59,12 @@ def pytest_configure(config: pytest.Config) -> None:
         present = settings.get_profile(settings.get_current_profile_name())
         settings.register_profile("house", present, deadline=None, max_examples=examples(present.max_examples))
         settings.load_profile("house")
+
+
+def pytest_collection_finish() -> None:
+    """Thousands of tests stay in memory to the end: the garbage collector does not look at them again and again."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
