@@ -78,7 +78,7 @@ class Controller:
         self, now_s: float, readings: Mapping[Axis, Reading], orders: Iterable[tuple[Source, Order]]
     ) -> dict[Axis, Command]:
         """One cycle: take the readings and the orders, and decide what each drive is to do."""
-        for fault in self._cycles.begin(now_s, running=any(control.driven for control in self._axes.values())):
+        for fault in self._cycles.begin(now_s, running=self._running):
             self._axes[fault.axis].fail(fault)
         for axis, control in self._axes.items():
             if axis in readings:
@@ -121,10 +121,16 @@ class Controller:
 
     def note_driven(self, now_s: float, driven: Mapping[Axis, Direction]) -> None:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
+        for fault in self._cycles.end(now_s, running=self._running):
+            self._axes[fault.axis].fail(fault)
         for axis, control in self._axes.items():
             control.note_driven(now_s, driven[axis])
         self._movements.note_driven(now_s)
         self._starts.note_driven(now_s, driven)
+
+    @property
+    def _running(self) -> bool:
+        return any(control.driven for control in self._axes.values())
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""

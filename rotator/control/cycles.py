@@ -13,16 +13,23 @@ CYCLE_LATE_S = 0.5
 
 
 class Cycles:
-    """Call `begin` at the beginning of every cycle. `period_s`: from one cycle to the next."""
+    """Call `begin` at the beginning of every cycle, and `end` when the drives have their commands. `period_s`: from one
+    cycle to the next. Both return the fault of each axis, if any.
+    """
 
     def __init__(self, period_s: float) -> None:
         self._longest_s = period_s + CYCLE_LATE_S
         self._begun_s: float | None = None
 
     def begin(self, now_s: float, *, running: bool) -> tuple[Fault, ...]:
-        """A cycle begins. `running`: a motor was on since the last one. Returns the fault of each axis, if any."""
-        gap_s = 0.0 if self._begun_s is None else now_s - self._begun_s
+        """A cycle begins. `running`: a motor was on since the last one."""
+        faults = self.end(now_s, running=running)
         self._begun_s = now_s
+        return faults
+
+    def end(self, now_s: float, *, running: bool) -> tuple[Fault, ...]:
+        """The cycle has acted. `running`: a motor was on when it began."""
+        gap_s = 0.0 if self._begun_s is None else now_s - self._begun_s
         if not running or gap_s <= self._longest_s:
             return ()
         measured = f"the box did nothing for {gap_s:.1f} s while a motor ran"

@@ -131,7 +131,8 @@ class ControlLoop:
                 # A relay that could not be opened counts as closed.
                 driven[axis] = self._rotor.driven(axis)
                 self._journal.note(DRIVES[axis], str(fault))
-        self._controller.note_driven(now_s, driven)
+        # A computer that stood still meanwhile has closed or opened them only now.
+        self._controller.note_driven(self._clock(), driven)
         self.status = self._controller.status(now_s, self._late_s)
         unkept, failed = self._card.look(now_s), self._errands.notices(now_s)
         if unkept or failed:

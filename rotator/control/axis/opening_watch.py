@@ -22,16 +22,21 @@ from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.axis.run_on import RunOn
-from rotator.control.axis.seen_run import END_WINDOWS_S, HELD_UNSEEN_S, POWERED_SHARE, EndedRun, SeenRun
+from rotator.control.axis.seen_run import (
+    END_WINDOWS_S,
+    EXTRAPOLATED_AFTER_S,
+    HELD_UNSEEN_S,
+    POWERED_SHARE,
+    EndedRun,
+    SeenRun,
+)
 from rotator.control.axis.standing import Obstacles, RestPlace
-from rotator.control.axis.trend import Slope
+from rotator.control.axis.trend import LONGEST_GAP_S, Slope
 from rotator.exchange.motor import Trust
 
 DOUBTS_AFTER_S = 0.5
 GAP_S = 0.5
 """No command to a relay holds for longer without being renewed."""
-EXTRAPOLATED_AFTER_S = 0.2
-"""If the last reading is older, the angle is extrapolated."""
 BLIND_S = 1.0
 """An axis may turn without being seen to turn, in short runs of this length in all."""
 MOVED_DEG, MOVED_NOISES = 0.5, 4.0
@@ -118,8 +123,10 @@ class OpeningWatch:
 
     def see(self, at_s: float, angle_deg: float, *, supplied: bool) -> None:
         """A good reading, on the line of the others."""
-        self._latest.append(angle_deg)
         gap_s, self._seen_s = at_s - self._seen_s, at_s
+        if gap_s > LONGEST_GAP_S:
+            self._latest.clear()
+        self._latest.append(angle_deg)
         if self._seen.relays.closed:
             # After a long gap the guard has opened the relay: how the run went before it is what counts.
             if gap_s <= GAP_S or self._run.line is None:
@@ -128,6 +135,8 @@ class OpeningWatch:
             self._supplied_s, self._unbroken = None, False
         else:
             self._supplied_s = at_s if self._supplied_s is None else self._supplied_s
+            if gap_s > LONGEST_GAP_S:
+                self._run.seen_after_gap(at_s, gap_s, angle_deg)
             self._rest.see(angle_deg)
             self._see_rest(at_s)
 

@@ -7,7 +7,7 @@ run shows of the relays.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import ObservedMotion
@@ -25,6 +25,8 @@ STEADY_S = 1.5
 """After this time the motor runs at its full speed, and the run's last second shows it exactly."""
 HELD_UNSEEN_S = 0.3
 """An axis that was held for a shorter time at the end of a run seems to turn until the end."""
+EXTRAPOLATED_AFTER_S = 0.2
+"""If the last reading is older, the angle is extrapolated."""
 EXACT_ERRORS = 6.0
 """A speed is measured when it is this many times its standard error."""
 
@@ -91,12 +93,22 @@ class SeenRun:
 
     def end(self, now_s: float, direction: Direction, lasted_s: float, angle_deg: float) -> None:
         line, self.line = self.line, None
-        if line is not None and lasted_s >= MEASURED_AFTER_S:
+        # In a run that went on without readings the motor may have gathered speed unseen.
+        unseen_s = now_s - self.turned_s if now_s - self.turned_s > EXTRAPOLATED_AFTER_S else 0.0
+        if line is not None and lasted_s - unseen_s >= MEASURED_AFTER_S:
             line = self._exactly(line, now_s) if lasted_s >= STEADY_S else line
             if abs(line.speed_dps) >= EXACT_ERRORS * line.error_dps:
                 self._measured[direction] = abs(line.speed_dps)
                 self.measured_dps = min(self._measured.values())
         self.ended = EndedRun(direction, now_s, lasted_s, line, angle_deg)
+
+    def seen_after_gap(self, at_s: float, gap_s: float, angle_deg: float) -> None:
+        """The first reading after a gap, with no relay closed. A computer that stood still switched the relay off when
+        it went on, just before this reading: where the axis was then is seen, in place of extrapolated.
+        """
+        ended = self.ended
+        if ended is not None and at_s - gap_s < ended.off_s and at_s <= ended.off_s + EXTRAPOLATED_AFTER_S:
+            self.ended = replace(ended, angle_deg=angle_deg)
 
     def _turning(self, at_s: float, since_s: float) -> Slope | None:
         """How fast the axis turns just now, for certain."""
