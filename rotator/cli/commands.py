@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 import click
 from click.exceptions import NoArgsIsHelpError
 
+from rotator.cli.foreground import in_front
 from rotator.cli.lines import say
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
@@ -77,8 +78,8 @@ class NumbersCommand(click.Command):
 
 
 def draws() -> bool:
-    """Whether the output is a terminal that a picture can be drawn on."""
-    return sys.stdout.isatty() and os.environ.get("TERM") not in ("dumb", "unknown")
+    """Whether the output is a terminal that a picture can be drawn on now."""
+    return in_front(sys.stdout) and os.environ.get("TERM") not in ("dumb", "unknown")
 
 
 def examples(*lines: str) -> str:

@@ -26,6 +26,7 @@ from rotator.cli.anew import restored, start_anew, text_of
 from rotator.cli.announced import announced, boxes
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
+from rotator.cli.foreground import in_front
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.reach import connected
 from rotator.cli.run_keys import NEXT, RunKeys
@@ -35,6 +36,7 @@ from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path, runtime_folder
 from rotator.runtime.anew import Anew
 from rotator.runtime.one_heap import use_one_heap
+from rotator.runtime.open_files import allow_enough
 from rotator.runtime.signals import SignalThread
 from rotator.views import plain_lines, terminal
 from rotator.views.sky_plot import Trail
@@ -46,6 +48,7 @@ PAGE_LOOKS = 30
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
     use_one_heap()
+    allow_enough()
     anew = Anew()
     restored(path)
     good = text_of(path)
@@ -147,7 +150,7 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
 
     def greeting() -> list[str]:
         lines = plain_lines.greeting(__version__, app.config.rotor.hardware, wires)
-        return [*lines, "  keys: " + ", ".join(terminal.KEYS).replace("   ", ", ")] if sys.stdin.isatty() else lines
+        return [*lines, "  keys: " + ", ".join(terminal.KEYS).replace("   ", ", ")] if in_front(sys.stdin) else lines
 
     def key(pressed: str) -> None:
         nonlocal told

@@ -20,8 +20,10 @@ from typing import IO, cast
 from rich.console import Console, RenderableType
 from rich.live import Live
 
+from rotator.cli.foreground import in_front
 from rotator.cli.output import Output
 from rotator.exchange.spoken import spoken
+from rotator.runtime.signals import never_pause
 from rotator.views.plain_characters import ascii_only
 
 PICTURE_HZ = 5
@@ -54,10 +56,11 @@ def log_to(handler: logging.Handler) -> None:
 
 
 def stop_on_signals() -> asyncio.Event:
-    """An event that Ctrl-C, SIGTERM and a closed terminal set."""
+    """An event that Ctrl-C, SIGTERM and a closed terminal set. Ctrl-Z does nothing from now on."""
     stop = asyncio.Event()
     for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(signum, stop.set)
+    never_pause()
     return stop
 
 
@@ -105,8 +108,9 @@ async def print_lines(
 
 @contextmanager
 def keys_to(handle: Callable[[str], None]) -> Iterator[None]:
-    """While it is open, each key goes to `handle` without Enter. Without a terminal, or once it is gone: nothing."""
-    if not sys.stdin.isatty():
+    """While it is open, each key goes to `handle` without Enter. Without a terminal, behind it (`rotator run &`), or
+    once it is gone: nothing."""
+    if not in_front(sys.stdin):
         yield
         return
     fd = sys.stdin.fileno()

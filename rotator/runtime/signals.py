@@ -17,8 +17,17 @@ from typing import Any, Self
 ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
+def never_pause() -> Any:
+    """Ignore Ctrl-Z: a program that stands still serves no stop, and with a relay on its sentinel would kill it.
+
+    Returns what the signal did before.
+    """
+    return signal.signal(signal.SIGTSTP, signal.SIG_IGN)
+
+
 class SignalThread:
-    """While it is open, each of ENDINGS calls `ended`, in a thread of its own. Open it in the main thread."""
+    """While it is open, each of ENDINGS calls `ended`, in a thread of its own, and Ctrl-Z does nothing. Open it in the
+    main thread."""
 
     def __init__(self, ended: Callable[[], None]) -> None:
         self._ended = ended
@@ -34,6 +43,7 @@ class SignalThread:
         self._before = {
             signum: signal.signal(signum, _noted) for signum in ENDINGS if not (outlives and signum is signal.SIGHUP)
         }
+        self._before[signal.SIGTSTP] = never_pause()
         self._thread.start()
         return self
 
