@@ -21,6 +21,7 @@ from rotator.runtime.anew import Anew
 from rotator.runtime.closing import Part, closing
 from rotator.runtime.dead_threads import dead_threads
 from rotator.runtime.engine import process_end
+from rotator.runtime.open_files import say_it_once
 
 if TYPE_CHECKING:
     from rotator.calibrating.on_page import PageCalibration
@@ -63,6 +64,7 @@ class App:
 
     async def run(self, stop: asyncio.Event) -> None:
         """Run until `stop` is set. Raises LinkError, HardwareError, or the exception that ended the control thread."""
+        say_it_once(asyncio.get_running_loop())
         with dead_threads(self.loop.fail):
             await self._run(stop)
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from rotator.links.listening import cannot_listen
 from rotator.links.wire import Wire
 from rotator.runtime.event_watch import EventWatch
+from rotator.runtime.open_files import say_it_once
 from rotator.web.connections import Connection, Connections
 from rotator.web.logs import http_logger
 
@@ -124,6 +125,7 @@ class PageThread:
     async def _serve(self) -> None:
         assert self._socket is not None, "start() comes first"
         self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
+        say_it_once(self._loop)
         # Some hundred modules. Loaded here, they do not delay the start of the box.
         from aiohttp import http_exceptions, web  # noqa: PLC0415
 
