@@ -79,6 +79,8 @@ class Gs232Session:
         self._points = 0
         self._asked: Calibrate | None = None
         """What a Y as the next line stores."""
+        self._echoed = False
+        """The last line was this unit's own `?>`, perhaps with one more line end."""
 
     def receive(self, data: bytes) -> list[bytes]:
         replies = [self._answer(line) for line in self._lines.feed(data)]
@@ -90,6 +92,10 @@ class Gs232Session:
     def _answer(self, line: bytes | None) -> bytes:
         if line is None:
             return gs232.INVALID
+        # A port that echoes (Linux does, until a program sets it) sends it back: an answer to it would come back too.
+        self._echoed = line.strip() == gs232.INVALID.strip() or (self._echoed and not line.strip())
+        if self._echoed:
+            return b""
         asked, self._asked = self._asked, None
         if asked is not None and line.strip().upper() in (b"Y", b""):
             return self._store(asked) if line.strip() else self._ack

@@ -21,6 +21,7 @@ IO_ERROR = -6
 REJECTED = -9
 NOT_AVAILABLE = -11
 
+REPORT = b"RPRT "
 QUESTION = "?"
 """In place of a name: list the names. No value follows it."""
 _SEPARATORS = frozenset(string.punctuation) - frozenset("\\_#")
@@ -168,7 +169,7 @@ def encode_answer(request: Request, answer: Answer) -> bytes:
 
 
 def report(code: int) -> bytes:
-    return f"RPRT {code}\n".encode()
+    return REPORT + f"{code}\n".encode()
 
 
 def number(word: str) -> float:

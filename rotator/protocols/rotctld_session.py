@@ -21,6 +21,7 @@ from rotator.protocols.rotctld import (
     NOT_IMPLEMENTED,
     QUESTION,
     REJECTED,
+    REPORT,
     Answer,
     BadRequest,
     Request,
@@ -77,6 +78,9 @@ class RotctldSession:
             return []
         if line is None:
             return [report(INVALID_PARAMETER)]
+        if line.startswith(REPORT):
+            # A port that echoes sends it back: an answer to it would come back too.
+            return []
         try:
             # The whole line is parsed before any command is obeyed: KEEPALIVE must not park the antenna.
             understood = list(requests(line.decode("latin-1")))
