@@ -25,7 +25,7 @@ check: $(VENV)/.dev
 
 # More at once than there are cores, for many tests wait for a foreign program's own pauses. The browser gets a process
 # of its own: its driver keeps an event loop running, in which no test of the server could start one.
-tests: $(VENV)/.dev
+tests: $(VENV)/.compiled
 	@failed=0; set -x; \
 	$(BIN)/pytest -n 3 --dist worksteal $(TESTS) || failed=1; \
 	$(if $(TESTS),,$(BIN)/pytest -n 2 tests/page/test_first_look.py || failed=1;) \
@@ -162,6 +162,11 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps 'moteus>=1.1,<2'
 	@touch $@ $(VENV)/.run
+
+# Once for all processes of the tests: in a fresh clone each of them would compile every file, all at the same time.
+$(VENV)/.compiled: $(VENV)/.dev
+	-@$(BIN)/pytest -qq --collect-only >/dev/null
+	@touch $@
 
 $(VENV)/.docs: $(VENV)/.dev
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[docs]'
