@@ -1,15 +1,13 @@
 """Which satellite a program's orders follow, and when they leave it again.
 
-Knows the orders of each connection, the moments at which they came, and the satellites that may be meant. A satellite
-is recognised when its path, by one clock of the program, explains every order to its rounding, when the orders have
-moved with it, when no other satellite explains them too, and when chance hardly would. Knows nothing of the rotor, and
-reads no clock. An order costs some milliseconds, so this has no place in the control loop.
+Knows the orders of each connection, the moments at which they came, and the satellites that may be meant. `explaining`
+decides whether one of these explains them. Knows nothing of the rotor, and reads no clock. An order costs some
+milliseconds, so this has no place in the control loop.
 """
 
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Collection, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -18,42 +16,15 @@ from rotator.exchange.flight_order import Fly, Stream, TakeTurn
 from rotator.exchange.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Speed
 from rotator.exchange.program_clock import ProgramClock
 from rotator.exchange.sources import Source
-from rotator.orbits.chance import (
-    LINE_CHANCE,
-    MOST_LIKELY,
-    RISING_LINE_CHANCE,
-    Known,
-    has_moved,
-    has_told,
-    line_chance,
-    rising_line_chance,
-)
-from rotator.orbits.rise_chance import standing_chance
+from rotator.orbits.chance import MOST_LIKELY, Known
+from rotator.orbits.explaining import Explained, explained
+from rotator.orbits.heard_orders import FASTEST_DPS, LONGEST_GAP_S, HeardOrders
 from rotator.orbits.rising import LOWEST_DEG, Rising, Soon, soon_rising, waits_for
 from rotator.orbits.sight import NotThere, Sight, Target
-from rotator.orbits.stream_fit import (
-    CLOCKS_S,
-    UNSTEADY_S,
-    Heard,
-    SampledPath,
-    clocks_that_explain,
-    rounding_deg,
-    telling,
-)
+from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath
 
-ORDERS = 8
-FEW_ORDERS, FEW_S = 3, 8.0
-"""Orders needed to recognise a satellite. If they come slowly, `FEW_ORDERS` in this time are enough."""
-KEPT = 30
-"""Orders for which a stream must agree with a path that it meets later, because any line crosses some path."""
 AGAIN_S = 2.0
-"""Seconds until the next fit if `KEPT` orders have shown no satellite."""
-LONGEST_GAP_S = 20.0
-"""Seconds: orders further apart are of two streams. Some programs send only when a whole degree has changed."""
-THIN_S = 0.9
-"""Seconds: if orders come faster, only one in this time counts."""
-FASTEST_DPS = 2.0
-"""Degrees a second: no satellite crosses the sky faster. Faster orders begin a new stream."""
+"""Seconds until the next fit if as many orders as are kept have shown no satellite."""
 SIEVE_EVERY_S = 10.0
 SIEVE_DEG = 2 * FASTEST_DPS * SIEVE_EVERY_S
 """Degrees: a satellite further from the order than this is left out until the next sieving."""
@@ -154,12 +125,9 @@ class _Listener:
 
     def __init__(self, source: Source) -> None:
         self._source = source
-        self._orders: deque[Heard] = deque(maxlen=KEPT)
-        self._all_kept = True
-        """Whether no order was dropped since the stream began."""
+        self._orders = HeardOrders()
         self._near: list[SampledPath] = []
         self._known = Known(0, 0, 0)
-        self._likely: Collection[str] = ()
         self._sieved_s = -math.inf
         self._next_s = -math.inf
         """Earliest time of the next fit."""
@@ -172,37 +140,27 @@ class _Listener:
 
     @property
     def last_s(self) -> float:
-        return self._orders[-1].utc_s if self._orders else -math.inf
+        return self._orders.last_s
 
     def hear(self, order: Heard, satellites: Sequence[Target], likely: Collection[str]) -> Recognised | Departed | None:
-        if self._orders and self._begins_anew(order):
-            self._orders.clear()
-            self._all_kept = True
+        if self._orders.begin_anew(order):
             self._sieved_s = self._next_s = -math.inf
-        elif self._orders and order.utc_s - self.last_s < THIN_S:
+        elif self._orders.too_soon(order):
             return self._departed(order)
-        self._all_kept = self._all_kept and len(self._orders) < KEPT
-        self._orders.append(order)
+        self._orders.add(order)
         if self.recognised is not None:
             return self._departed(order)
-        self._likely = likely
-        self._sieve(order, satellites)
-        self.rising = self._waits_for()
-        enough = _are_enough(self._orders) if self._all_kept else len(self._orders) == KEPT
-        if not enough or not self._near or order.utc_s < self._next_s:
+        self._sieve(order, satellites, likely)
+        orders = self._orders.all
+        self.rising = self._waits_for(orders, likely)
+        if not self._orders.enough or not self._near or order.utc_s < self._next_s:
             return None
-        if len(self._orders) == KEPT:
+        if self._orders.full:
             self._next_s = order.utc_s + AGAIN_S
-        return self._recognise()
+        found = explained(orders, self._near, self._known, likely)
+        return self._recognise(found) if found else None
 
-    def _begins_anew(self, order: Heard) -> bool:
-        last = self._orders[-1]
-        gap_s = order.utc_s - last.utc_s
-        if not 0 <= gap_s <= LONGEST_GAP_S:
-            return True
-        return order.direction.apart_deg(last.direction) > FASTEST_DPS * (gap_s + UNSTEADY_S) + 2.0
-
-    def _sieve(self, order: Heard, satellites: Sequence[Target]) -> None:
+    def _sieve(self, order: Heard, satellites: Sequence[Target], likely: Collection[str]) -> None:
         """Keep the satellites that may come near the orders."""
         if order.utc_s - self._sieved_s < SIEVE_EVERY_S:
             return
@@ -213,51 +171,23 @@ class _Listener:
         up = [(each, sight) for each, sight in seen if sight.elevation_deg > -FASTEST_DPS]
         near = [each for each, sight in up if sight.apart_deg(order.direction) <= SIEVE_DEG]
         with suppress(NotThere):
-            in_use = [each for each in satellites if each.name in self._likely]
+            in_use = [each for each in satellites if each.name in likely]
             self._soon = soon_rising(order, seen, in_use) if order.elevation_deg == 0 else []
         self._near = [known.get(each) or SampledPath(each) for each in near]
-        likely = sum(each.name in self._likely for each in satellites)
-        self._known = Known(len(satellites), likely, len(up))
+        self._known = Known(len(satellites), sum(each.name in likely for each in satellites), len(up))
         for path in self._near:
-            path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
+            path.forget_before(self._orders.first_s + CLOCKS_S[0] - 1)
 
-    def _waits_for(self) -> Rising | None:
+    def _waits_for(self, orders: Sequence[Heard], likely: Collection[str]) -> Rising | None:
         with suppress(NotThere):
-            return waits_for(self._orders, self._soon, self._known, self._likely)
+            return waits_for(orders, self._soon, self._known, likely)
         return None
 
-    def _recognise(self) -> Recognised | None:
-        orders = list(self._orders)
-        rounding = rounding_deg(orders)
-        fits = [(path, clocks) for path in self._near if (clocks := _clocks(path, orders, rounding))]
-        if len(fits) != 1:
-            return None
-        path, clocks_s = fits[0]
-        told = telling(path, orders)
-        if not _are_enough(told):
-            return None
-        if not has_moved(told):
-            # In whole degrees a satellite may stand for 15 s after its rise. Then only place and time identify it.
-            allowed = self._known.standing_share(likely=path.satellite.name in self._likely)
-            if standing_chance(path, orders, clocks_s, rounding) > allowed:
-                return None
-        elif not has_told(path, told, rounding) or not self._is_no_chance(path, told, clocks_s, rounding):
-            return None
-        self._followed, self._clock = path, ProgramClock(clocks_s, rounding)
-        self.recognised = Recognised(
-            self._source, path.satellite, Stream(rounding, ahead_s=(clocks_s[0], clocks_s[-1]))
-        )
+    def _recognise(self, found: Explained) -> Recognised:
+        self._followed, self._clock = found.path, ProgramClock(found.clocks_s, found.rounding_deg)
+        stream = Stream(found.rounding_deg, ahead_s=(found.clocks_s[0], found.clocks_s[-1]))
+        self.recognised = Recognised(self._source, found.path.satellite, stream)
         return self.recognised
-
-    def _is_no_chance(
-        self, path: SampledPath, told: Sequence[Heard], clocks_s: Sequence[float], rounding: float
-    ) -> bool:
-        """Whether a line at random hardly fits one of all satellites: in the orders' places, or in place and time of
-        their begin."""
-        return (
-            self._known.up * line_chance(path, told, rounding) <= LINE_CHANCE
-            or self._known.all * rising_line_chance(path, told, clocks_s, rounding) <= RISING_LINE_CHANCE
-        )
 
     def _departed(self, order: Heard) -> Departed | None:
         """Whether an order is too far from the followed path, for each possible error of the program's clock."""
@@ -265,17 +195,11 @@ class _Listener:
         if self.recognised is None or path is None or clock is None:
             return None
         if clock.agrees(lambda clock_s: _apart_deg(path, order, clock_s)):
-            path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
+            path.forget_before(self._orders.first_s + CLOCKS_S[0] - 1)
             return None
         departed = Departed(self._source, self.recognised.satellite)
         self._followed = self.recognised = None
         return departed
-
-
-def _are_enough(orders: Sequence[Heard]) -> bool:
-    return len(orders) >= ORDERS or (
-        len(orders) >= FEW_ORDERS and orders[-1].utc_s - orders[0].utc_s >= FEW_S - UNSTEADY_S
-    )
 
 
 def _sight(satellite: Target, utc_s: float) -> Sight | None:
@@ -285,13 +209,6 @@ def _sight(satellite: Target, utc_s: float) -> Sight | None:
     except NotThere:
         return None
     return sight if sight.elevation_deg > LOWEST_DEG else None
-
-
-def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
-    try:
-        return clocks_that_explain(path, orders, rounding)
-    except NotThere:
-        return ()
 
 
 def _apart_deg(path: SampledPath, order: Heard, clock_s: float) -> float:

@@ -32,6 +32,11 @@ STANDING = (
 satellite by chance: if it is rounded, and if it is rounded or cut off. For orbits near the earth at random."""
 
 
+def rises(seen: Second) -> bool:
+    """Whether a satellite with this direction and motion is rising over the horizon."""
+    return RISING_SOON_DEG <= seen.elevation_deg <= JUST_RISEN_DEG and seen.elevation_dps > 0
+
+
 def rise_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
     """The probability that a stream begins when and where one satellite rises; 1: it does not begin as this one
     rises."""
@@ -40,7 +45,7 @@ def rise_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[f
     rising = [
         seen
         for clock_s in clocks_s
-        if _rises(seen := path.at(first.utc_s + clock_s))
+        if rises(seen := path.at(first.utc_s + clock_s))
         and -rounding - RISE_BIAS_DEG <= turn_deg(seen.azimuth_deg, first.azimuth_deg) <= rounding / 2 + RISE_BIAS_DEG
     ]
     if first.elevation_deg > 0 or not rising:
@@ -66,10 +71,6 @@ def standing_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequen
     return 1.0
 
 
-def _rises(seen: Second) -> bool:
-    return RISING_SOON_DEG <= seen.elevation_deg <= JUST_RISEN_DEG and seen.elevation_dps > 0
-
-
 def _stands(path: SampledPath, orders: Sequence[Heard], clock_s: float, rounding: float, cut_deg: float) -> bool:
     """Whether it rises at the first order, and its rounded direction is the same until the last. `cut_deg`: by so much
     orders are too low that are cut off."""
@@ -77,7 +78,7 @@ def _stands(path: SampledPath, orders: Sequence[Heard], clock_s: float, rounding
     begin, end = path.at(first.utc_s + clock_s), path.at(last.utc_s + clock_s)
     loose_deg = rounding / 2 + RISE_BIAS_DEG
     return (
-        _rises(begin)
+        rises(begin)
         and end.elevation_deg <= loose_deg + cut_deg
         and all(abs(turn_deg(seen.azimuth_deg, first.azimuth_deg) + cut_deg) <= loose_deg for seen in (begin, end))
     )

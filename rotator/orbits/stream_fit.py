@@ -111,8 +111,10 @@ def rounding_deg(orders: Sequence[Heard]) -> float:
 def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
     """The leads of the program's clock with which this path, rounded, gives the orders. Raises NotThere."""
     told = telling(path, orders)
-    told = told[-1:] + told[:-1]  # first and last order show a wrong clock soonest
-    return tuple(clock_s for clock_s in CLOCKS_S if told and _explains(path, told, clock_s, rounding))
+    if not told:
+        return ()
+    either_deg = 0.0, rounding / 2
+    return tuple(each for each in CLOCKS_S if explains(path, told, each, rounding=rounding, cuts_deg=either_deg))
 
 
 def telling(path: SampledPath, orders: Sequence[Heard]) -> list[Heard]:
@@ -123,12 +125,22 @@ def telling(path: SampledPath, orders: Sequence[Heard]) -> list[Heard]:
     ]
 
 
-def _explains(path: SampledPath, orders: Sequence[Heard], clock_s: float, rounding: float) -> bool:
+def explains(
+    path: SampledPath,
+    orders: Sequence[Heard],
+    clock_s: float,
+    *,
+    rounding: float,
+    cuts_deg: Sequence[float],
+    bias_deg: float = BIAS_DEG,
+) -> bool:
+    """Whether this path, sent by this clock, gives the orders. `cuts_deg`: by how much orders may lie below the path,
+    in both angles alike: by nothing if they are rounded, by half the rounding if they are cut off. Raises NotThere."""
     # Across: along the azimuth, on the sky. Each order allows a range for the bias; together they must leave some.
     half, least_cos = rounding / 2, 1.0
-    low_across = low_up = -BIAS_DEG - half
-    high_across = high_up = BIAS_DEG
-    for order in orders:
+    low_across = low_up = -bias_deg - max(cuts_deg)
+    high_across = high_up = bias_deg
+    for order in (orders[-1], *orders[:-1]):  # first and last order show a wrong clock soonest
         seen = path.at(order.utc_s + clock_s)
         cos = math.cos(math.radians(seen.elevation_deg))
         least_cos = min(least_cos, cos)
@@ -140,11 +152,10 @@ def _explains(path: SampledPath, orders: Sequence[Heard], clock_s: float, roundi
         low_up, high_up = max(low_up, up - loose_up), min(high_up, up + loose_up)
         if low_across > high_across or low_up > high_up:
             return False
-    # Orders that are cut off lie below the path by half their rounding, in both angles alike.
     return any(
-        low_across <= BIAS_DEG - cut * least_cos
-        and high_across >= -BIAS_DEG - cut
-        and low_up <= BIAS_DEG - cut
-        and high_up >= -BIAS_DEG - cut
-        for cut in (0.0, half)
+        low_across <= bias_deg - cut * least_cos
+        and high_across >= -bias_deg - cut
+        and low_up <= bias_deg - cut
+        and high_up >= -bias_deg - cut
+        for cut in cuts_deg
     )

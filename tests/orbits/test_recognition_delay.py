@@ -14,7 +14,8 @@ import pytest
 from benchmarks.recognition import catalogue
 from benchmarks.recognition_delay import ROUNDINGS, recognised_after_s, rises, used
 from rotator.orbits.chance import STANDING_CHANCE, Known
-from rotator.orbits.recognition import ORDERS, StreamWatch
+from rotator.orbits.heard_orders import ORDERS
+from rotator.orbits.recognition import StreamWatch
 from rotator.orbits.satellite import Satellite
 from tests.search import examples
 

@@ -1,0 +1,85 @@
+"""The one satellite that explains a program's orders: surely enough to fly its path in their place, or none.
+
+Knows the orders of one stream and the satellites near them. A satellite explains them when its path, by one clock of
+the program, gives every order to its rounding, when no other satellite explains them too, when chance hardly would, and
+when they hardly follow its neighbour in a train. Does not know who sent the orders.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+from rotator.orbits.chance import (
+    LINE_CHANCE,
+    RISING_LINE_CHANCE,
+    Known,
+    has_moved,
+    has_told,
+    line_chance,
+    rising_line_chance,
+)
+from rotator.orbits.heard_orders import are_enough
+from rotator.orbits.neighbours import has_likely_clock
+from rotator.orbits.rise_chance import standing_chance
+from rotator.orbits.sight import NotThere
+from rotator.orbits.stream_fit import Heard, SampledPath, clocks_that_explain, rounding_deg, telling
+
+
+@dataclass(frozen=True, slots=True)
+class Explained:
+    """The orders follow this path, rounded like this. `clocks_s`: the possible leads of the program's clock."""
+
+    path: SampledPath
+    clocks_s: tuple[float, ...]
+    rounding_deg: float
+
+
+def explained(
+    orders: Sequence[Heard], near: Iterable[SampledPath], known: Known, likely: Collection[str]
+) -> Explained | None:
+    """`near`: the satellites near the orders. `likely`: names of the satellites in use."""
+    rounding = rounding_deg(orders)
+    fits = [Explained(path, clocks_s, rounding) for path in near if (clocks_s := _clocks(path, orders, rounding))]
+    if len(fits) != 1:
+        return None
+    [found] = fits
+    with suppress(NotThere):
+        if _is_sure(found, orders, known, likely):
+            return found
+    return None
+
+
+def _is_sure(found: Explained, orders: Sequence[Heard], known: Known, likely: Collection[str]) -> bool:
+    """Whether the orders show enough of this satellite. Raises NotThere."""
+    path, clocks_s, rounding = found.path, found.clocks_s, found.rounding_deg
+    told = telling(path, orders)
+    if not are_enough(told):
+        return False
+    if not has_moved(told):
+        # In whole degrees a satellite may stand for 15 s after its rise. Then only place and time identify it.
+        allowed = known.standing_share(likely=path.satellite.name in likely)
+        return standing_chance(path, orders, clocks_s, rounding) <= allowed
+    return (
+        has_told(path, told, rounding)
+        and _is_no_chance(found, told, known)
+        and has_likely_clock(path, orders, rounding)
+    )
+
+
+def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
+    try:
+        return clocks_that_explain(path, orders, rounding)
+    except NotThere:
+        return ()
+
+
+def _is_no_chance(found: Explained, told: Sequence[Heard], known: Known) -> bool:
+    """Whether a line at random hardly fits one of all satellites: in the orders' places, or in place and time of their
+    begin."""
+    path, rounding = found.path, found.rounding_deg
+    return (
+        known.up * line_chance(path, told, rounding) <= LINE_CHANCE
+        or known.all * rising_line_chance(path, told, found.clocks_s, rounding) <= RISING_LINE_CHANCE
+    )
