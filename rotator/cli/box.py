@@ -27,6 +27,10 @@ class Refused(CommandFailed):
     """The box refuses the order. The text says why."""
 
 
+class DoesNotAnswer(CommandFailed):
+    """The box runs, and stands still. The text says how long it was asked."""
+
+
 class RunningBox:
     """One connection to the console. Raises CommandFailed when no box answers; ConfigError."""
 
@@ -55,7 +59,7 @@ class RunningBox:
                     raise Refused(answer.removeprefix(ERROR))
                 answers.append(answer)
         except TimeoutError:
-            raise CommandFailed(f"the box does not answer within {ANSWER_S:g} s") from None
+            raise DoesNotAnswer(f"the box does not answer within {ANSWER_S:g} s") from None
         except OSError:
             pass
         raise CommandFailed("the box has ended")

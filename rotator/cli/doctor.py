@@ -8,20 +8,20 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import click
 from rich.console import Console, RenderableType
 
 from rotator import __version__
-from rotator.cli.box import BoxStatus, RunningBox
+from rotator.cli.box import BoxStatus, DoesNotAnswer, RunningBox
 from rotator.cli.commands import HERE
 from rotator.cli.failed import CommandFailed, NoBox
 from rotator.config.load import ConfigError
 from rotator.config.places import INSTALLED
 from rotator.doctor.checks import examine
-from rotator.doctor.machine import this_machine
+from rotator.doctor.machine import Silent, this_machine
 from rotator.views.examination import as_object, report
 
 PLAIN_WIDTH = 110
@@ -35,7 +35,8 @@ def examine_box(path: Path | None, *, as_json: bool) -> int:
     here = Path(HERE)
     if path is None and here.exists():
         click.echo(f"{HERE} is here: `rotator doctor --config {HERE}` checks that one.\n", err=True)
-    examination = examine(replace(machine, ask_box=partial(_ask_box, path)), path)
+    # Asked once: a box that does not answer takes its time each time.
+    examination = examine(replace(machine, ask_box=cache(partial(_ask_box, path))), path)
     if as_json:
         found = as_object(examination.findings, program=__version__, ok=examination.exit_code == 0)
         click.echo(json.dumps(found, indent=2, ensure_ascii=False))
@@ -44,12 +45,14 @@ def examine_box(path: Path | None, *, as_json: bool) -> int:
     return examination.exit_code
 
 
-def _ask_box(path: Path | None) -> BoxStatus | str | None:
+def _ask_box(path: Path | None) -> BoxStatus | Silent | str | None:
     try:
         with RunningBox(path) as box:
             return box.status()
     except NoBox:
         return None
+    except DoesNotAnswer as why:
+        return Silent(str(why))
     except ConfigError:
         return "the file does not say where it is"
     except CommandFailed as reason:

@@ -28,6 +28,13 @@ UNITS = ("/etc/systemd/system/rotator.service", "/usr/lib/systemd/system/rotator
 
 
 @dataclass(frozen=True, slots=True)
+class Silent:
+    """A box runs, and does not answer."""
+
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
 class Machine:
     root: Path
     """The root of its file tree."""
@@ -45,7 +52,7 @@ class Machine:
     free_bytes: Callable[[Path], int]
     """Free bytes on the disk with that file."""
     chips: Chips
-    ask_box: Callable[[], dict[str, Any] | str | None] = lambda: None
+    ask_box: Callable[[], dict[str, Any] | Silent | str | None] = lambda: None
     """The status of the running box, as an object; or why it cannot be asked; None: no box runs."""
     utc_s: Callable[[], float] = time.time
     """Its clock."""

@@ -10,14 +10,20 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
-from rotator.doctor.machine import Machine
+from rotator.doctor.machine import Machine, Silent
 from rotator.exchange.spoken import held, sender, spoken
+
+START_ANEW = (
+    "Keep its log, then start it anew: sudo systemctl restart rotator; without the service Ctrl-C and rotator run."
+)
 
 
 def running_box(machine: Machine) -> Iterator[Finding]:
     match machine.ask_box():
         case None:
             yield fine("none runs now")
+        case Silent(why):
+            yield wrong(f"{why}: it stands still, and takes no stop", START_ANEW)
         case str(why):
             yield skipped(why)
         case status:

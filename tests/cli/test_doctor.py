@@ -9,6 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 Start = Callable[..., Any]
 Rotator = Callable[..., Any]
 
@@ -92,3 +94,20 @@ def test_the_running_box_is_told_from_another_program(rotator_here: Rotator, sta
     assert (ours["ok"], ours["found"]) == (True, f"127.0.0.1:{port}: the running box")
     assert theirs["ok"] is False
     assert f"127.0.0.1:{taken} is taken by {sys.executable}" in theirs["found"]
+
+
+def test_a_box_that_stands_still_is_a_fault(
+    rotator_here: Rotator, config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It has its socket still, and answers nothing: no stop would arrive."""
+    monkeypatch.setattr("rotator.cli.box.ANSWER_S", 0.2)
+    with socket.socket(socket.AF_UNIX) as deaf:
+        (tmp_path / "run").mkdir()
+        deaf.bind(str(tmp_path / "run" / "console"))
+        deaf.listen()
+        answer = rotator_here("doctor", "--config", config, "--json")
+    assert answer.returncode == 1
+    (found,) = (check for check in checks(answer) if check["name"] == "running box")
+    assert found["ok"] is False
+    assert found["found"].startswith("the box does not answer within 0.2 s: ")
+    assert "start it anew" in found["advice"]

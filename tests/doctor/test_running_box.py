@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from hw.ports import AngleSource, Axis
+from rotator.doctor.machine import Silent
 from rotator.doctor.running import running_box
 from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
 from rotator.exchange.orders import Mode
@@ -29,6 +30,10 @@ def told(pi: Pi, answer: Any) -> list[tuple[str, str]]:
     [
         (None, ("✓", "none runs now")),
         ("you may not use /run/rotator/console: use sudo", ("–", "you may not use /run/rotator/console: use sudo")),
+        (
+            Silent("the box does not answer within 5 s"),
+            ("✗", "the box does not answer within 5 s: it stands still, and takes no stop"),
+        ),
         (HEALTHY, ("✓", "it runs, and no axis has a fault")),
         (replace(HEALTHY, azimuth=replace(HEALTHY.azimuth, fault=FAULT)), ("✗", str(FAULT))),
         (replace(HEALTHY, latched="console#4"), ("!", "stopped by a rotator command: nothing moves until resume")),
