@@ -18,6 +18,7 @@ from rotator.cli.announced import boxes
 from rotator.cli.failed import CommandFailed, NoBox
 from rotator.config import places
 from rotator.config.places import INSTALLED, STATE, console_path, monitor_places
+from rotator.links.unix import short
 from rotator.store.plain import read_plain
 
 
@@ -112,7 +113,8 @@ def connected(place: Path) -> socket.socket | None:
     """A connection to the box that listens there; None: no box does. Raises CommandFailed where it may not be asked."""
     box = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
-        box.connect(str(place))
+        with short(place) as name:
+            box.connect(name)
         return box
     except PermissionError:
         box.close()

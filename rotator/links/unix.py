@@ -15,6 +15,21 @@ from pathlib import Path
 
 MODE = 0o660
 """Owner and group may connect. The socket has no other access check."""
+LONGEST = 107
+"""Bytes of a path that the kernel takes for a socket."""
+
+
+@contextmanager
+def short(path: Path) -> Iterator[str]:
+    """A name for the socket's path that the kernel takes, also where its folders have long names. Raises OSError."""
+    if len(os.fsencode(path)) <= LONGEST:
+        yield str(path)
+        return
+    folder = os.open(path.parent, os.O_PATH | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        yield f"/proc/self/fd/{folder}/{path.name}"
+    finally:
+        os.close(folder)
 
 
 @contextmanager
@@ -30,8 +45,8 @@ def claimed(path: Path) -> Iterator[socket.socket]:
         fcntl.flock(locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
         if path.is_socket():
             path.unlink()
-        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as place:
-            place.bind(str(path))
+        with short(path) as name, socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as place:
+            place.bind(name)
             try:
                 # The mode is set before the socket listens, so that no other user can connect in between.
                 path.chmod(MODE)

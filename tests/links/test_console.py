@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from rotator.cli.reach import connected
 from rotator.config.places import console_path
 from rotator.links.console import MOST_CLIENTS, ConsoleSocket
 from rotator.links.stream import UNREAD_LIMIT
@@ -55,6 +56,25 @@ async def running(path: Path) -> AsyncIterator[ConsoleSocket]:
         with suppress(asyncio.CancelledError):
             await task
         await asyncio.sleep(0)  # the clients' last turn
+
+
+def test_folders_with_long_names_have_a_console_too(tmp_path: Path) -> None:
+    """The kernel takes no socket's path above 107 bytes."""
+    path = tmp_path / ("long name " * 10) / ("ü" * 60) / "console"
+
+    async def talk() -> None:
+        async with running(path):
+            place = await asyncio.to_thread(connected, path)
+            assert place is not None
+            reader, writer = await asyncio.open_unix_connection(sock=place)
+            writer.write(b"stop\n")
+            assert await asyncio.wait_for(reader.readline(), PATIENCE_S) == b"stop\n"
+            writer.close()
+            await writer.wait_closed()
+
+    asyncio.run(talk())
+    assert not path.exists()
+    assert connected(path) is None
 
 
 class Person:
