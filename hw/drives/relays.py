@@ -1,7 +1,7 @@
 """Four motor relays, and the rules that no caller can bypass: the only code that closes a relay.
 
 Knows that opposite relays are never on together, that a reversal waits for its dead time, and that every command
-expires. Does not know angles or targets. Safe to call from any thread.
+expires. Does not know angles or targets, nor how long the motors' supply stays on. Safe to call from any thread.
 """
 
 from __future__ import annotations
@@ -11,16 +11,12 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
+from hw.drives.motor_supply import MASTER, NEVER_S, MotorSupply
 from hw.drives.positioned import wait_until
 from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
 
 LONGEST_LEASE_S = 0.5
 """Longest life of a command, even if the caller asks for more: when the caller dies, the motor stops within 0.5 s."""
-NEVER_S = float("-inf")
-MASTER_LINGER_S = 10.0
-"""Seconds that the motors' supply stays on after the last motor stopped, so that its relay switches less often."""
-
-MASTER = "master"
 RELAYS: dict[tuple[Axis, Direction], str] = {
     (Axis.AZIMUTH, Direction.PLUS): "azimuth_cw",
     (Axis.AZIMUTH, Direction.MINUS): "azimuth_ccw",
@@ -62,14 +58,9 @@ class RelayBank:
         self._renewed = False
         self._clock = clock
         self._dead_time_s = dead_time_s
-        self._master_wired = master
         self._one_at_a_time = one_at_a_time
-        self._master_until_s: float | None = None
-        self._fed_until_s = NEVER_S
-        """End of the present feed, in which the supply is on only to show a relay that did not open. It is a lease, as
-        for a motor: it ends unless it is renewed."""
+        self._supply = MotorSupply(lines, wired=master)
         self._motors = {axis: _Motor() for axis in Axis}
-        self._cut = False
         self._lock = threading.Condition()
         self._due_s: float | None = None
 
@@ -82,7 +73,7 @@ class RelayBank:
             now_s = self._clock()
             motor = self._motors[axis]
             try:
-                if direction is Direction.OFF or until_s <= now_s or self._cut:
+                if direction is Direction.OFF or until_s <= now_s or self._supply.barred:
                     self._open(axis, now_s)
                 else:
                     self._run(axis, direction, now_s)
@@ -99,11 +90,9 @@ class RelayBank:
             now_s = self._clock()
             try:
                 self._open(axis, now_s)
-                if self._master_wired and not self._cut and until_s > now_s:
+                if self._supply.wired and not self._supply.barred and until_s > now_s:
                     self._renew()
-                    self._lines.set({MASTER: True})
-                    self._fed_until_s = max(self._fed_until_s, min(until_s, now_s + LONGEST_LEASE_S))
-                    self._master_until_s = max(self._master_until_s or NEVER_S, self._fed_until_s)
+                    self._supply.feed(min(until_s, now_s + LONGEST_LEASE_S))
             finally:
                 self._plan(now_s)
 
@@ -116,9 +105,8 @@ class RelayBank:
             now_s = self._clock()
             try:
                 self._open(axis, now_s)
-                if self._master_until_s is not None and self._idle() and now_s >= self._fed_until_s:
-                    self._lines.set({MASTER: False})
-                    self._master_until_s = None
+                if self._supply.wired and self._supply.on and self._idle() and now_s >= self._supply.fed_until_s:
+                    self._supply.off()
             finally:
                 self._plan(now_s)
 
@@ -126,7 +114,7 @@ class RelayBank:
     def supplied(self) -> bool:
         """Whether the master is on; True if no master is wired."""
         with self._lock:
-            return not self._master_wired or self._master_until_s is not None
+            return self._supply.on
 
     def cut(self) -> bool:
         """Switch everything off, and the motors' supply too, until `restore`: the answer to a welded relay.
@@ -134,26 +122,26 @@ class RelayBank:
         False: no relay for the supply is wired. Raises HardwareError.
         """
         with self._lock:
-            if not self._master_wired:
+            if not self._supply.wired:
                 return False
-            self._cut = True
+            self._supply.barred = True
             self.off()
             return True
 
     def restore(self) -> None:
         """Allow the motors' supply again. It is switched on with the next motor."""
         with self._lock:
-            self._cut = False
+            self._supply.barred = False
 
     def off(self) -> None:
         """Switch everything off now. From any thread. Raises HardwareError."""
         with self._lock:
             now_s = self._clock()
             everything = dict.fromkeys(RELAYS.values(), False)
-            if self._master_wired:
+            if self._supply.wired:
                 everything[MASTER] = False
             self._lines.set(everything)
-            self._master_until_s, self._fed_until_s = None, NEVER_S
+            self._supply.note_off()
             for motor in self._motors.values():
                 self._note_stop(motor, now_s)
             self._plan(now_s)
@@ -177,11 +165,9 @@ class RelayBank:
                         self._open(axis, now_s)
                     except HardwareError as failure:
                         failures.append(failure)
-            lingered = self._master_until_s is not None and self._master_until_s <= now_s and self._idle()
-            if self._master_wired and (failures or lingered):
+            if failures or (self._supply.lingered(now_s) and self._idle()):
                 try:
-                    self._lines.set({MASTER: False})
-                    self._master_until_s, self._fed_until_s = None, NEVER_S
+                    self._supply.off()
                 except HardwareError as failure:
                     failures.append(failure)
             self._plan(now_s)
@@ -221,9 +207,7 @@ class RelayBank:
 
     def _close(self, axis: Axis, direction: Direction, now_s: float) -> None:
         levels = {RELAYS[axis, Direction(-direction)]: False, RELAYS[axis, direction]: True}
-        if self._master_wired:
-            levels[MASTER] = True
-            self._master_until_s = now_s + MASTER_LINGER_S
+        levels |= self._supply.for_a_motor(now_s)
         # A line that fails may have switched: the relay counts as closed until it is opened.
         motor = self._motors[axis]
         motor.on = motor.last = direction
@@ -240,8 +224,7 @@ class RelayBank:
             return
         self._lines.set({RELAYS[axis, Direction.PLUS]: False, RELAYS[axis, Direction.MINUS]: False})
         self._note_stop(motor, now_s)
-        if self._master_wired:
-            self._master_until_s = now_s + MASTER_LINGER_S
+        self._supply.linger(now_s)
 
     def _note_stop(self, motor: _Motor, now_s: float) -> None:
         if motor.on is not Direction.OFF:
@@ -259,15 +242,15 @@ class RelayBank:
     def _plan(self, now_s: float) -> None:
         """Set the next moment for `enforce`. Wake the guard if that moment is sooner than before, or there is none."""
         leases_s = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
-        if self._fed_until_s > now_s:
-            leases_s.append(self._fed_until_s)
+        if self._supply.fed_until_s > now_s:
+            leases_s.append(self._supply.fed_until_s)
         if self._watch and self._renewed and not leases_s:
             # Tell the watch of each end. If it hears nothing during a lease, it takes the program for hung.
             self._watch.rest()
             self._renewed = False
         moments_s = leases_s
-        if self._idle() and self._master_until_s is not None:
-            moments_s = [*leases_s, self._master_until_s]
+        if self._idle() and self._supply.until_s is not None:
+            moments_s = [*leases_s, self._supply.until_s]
         due_s = min(moments_s, default=None)
         news = due_s is None or self._due_s is None or due_s < self._due_s
         self._due_s = due_s

@@ -15,7 +15,7 @@ from rotator.control.flight import Flight
 from rotator.control.following import QUIET_S, Following
 from rotator.control.going_round import GoingRound
 from rotator.control.sky.angles import Coordinates
-from rotator.control.sky.goal import AimGoal, Goals
+from rotator.control.sky.goal import Goals
 from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import Nudges
@@ -225,8 +225,9 @@ class Aiming:
 
     def _fly_on(self, now_s: float) -> None:
         assert self._flight is not None
+        way = self._flight.way(now_s)
         for axis, goal in self._flight.goals(now_s).items():
-            self._round.aim(axis, self._nudged(self._flight, axis, goal, now_s))
+            self._round.aim(axis, self._nudges.flown(axis, goal, self._mount, way))
         wanted = self._nudges.applied(self._flight.wanted(now_s))
         if self._flight.following is None:
             self._pointing.show(wanted)
@@ -235,18 +236,6 @@ class Aiming:
         if self._flight.ended(now_s):
             self.end_following()
             self._flight = None
-
-    def _nudged(self, flight: Flight, axis: Axis, goal: AimGoal, now_s: float) -> AimGoal:
-        across_deg, up_deg = (self._nudges.of(each) for each in Axis)
-        if not across_deg and not up_deg:
-            return goal
-        if axis is Axis.AZIMUTH:
-            return goal.mapped(lambda angle_deg: self._mount.azimuth.nearest(angle_deg + across_deg))
-        way = flight.way(now_s)
-        azimuth_deg = self._mount.azimuth.nearest(way.azimuth_deg + across_deg)
-        # Over the top the elevation axis goes down where the antenna goes up.
-        raised_deg = -up_deg if way.flipped else up_deg
-        return goal.mapped(lambda angle_deg: self._mount.clear_deg(azimuth_deg, angle_deg + raised_deg))
 
     def notices(self, axis: Axis) -> tuple[Notice, ...]:
         """What a forbidden sector keeps this axis from."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hw.drives.relays import MASTER_LINGER_S
+from hw.drives.motor_supply import MASTER_LINGER_S
 from tests.hw.drives.relay_bench import AZ, EL, MASTER_PIN, PLUS, Bench
 
 
@@ -86,7 +86,10 @@ def test_a_shorter_look_ends_no_longer_one_and_no_linger() -> None:
     bench = Bench(master=True)
     bench.bank.feed(AZ, bench.clock() + 0.5)
     bench.bank.feed(EL, bench.clock() + 0.1)
-    bench.clock.sleep(0.4)
+    bench.clock.sleep(0.2)
+    bench.bank.unfeed(EL)
+    assert bench.on() == {"master"}
+    bench.clock.sleep(0.2)
     assert bench.on() == {"master"}
     bench.clock.sleep(0.1)
     bench.drive(AZ, PLUS)
@@ -96,8 +99,17 @@ def test_a_shorter_look_ends_no_longer_one_and_no_linger() -> None:
     assert bench.on() == {"master"}
 
 
+def test_when_all_is_switched_off_a_look_at_the_supply_is_over() -> None:
+    bench = Bench(master=True)
+    bench.bank.feed(AZ, bench.clock() + 0.5)
+    bench.bank.off()
+    assert bench.on() == set()
+    assert bench.bank.due_s() is None
+
+
 def test_without_a_master_there_is_none_to_switch_off() -> None:
     bench = Bench()
+    assert bench.bank.supplied, "always"
     bench.drive(AZ, PLUS)
     bench.bank.unfeed(AZ)
     assert bench.on() == set()
