@@ -11,7 +11,7 @@ from typing import Final, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from rotator.config.table import Table
+from rotator.config.table import FilePath, Table, a_path
 from rotator.exchange.sources import MQTT, PERSONS
 
 ProtocolName = Literal[
@@ -45,7 +45,7 @@ class Link(Table):
     """The protocol of the program at the other end."""
     name: str | None = Field(None, min_length=1, max_length=24)
     """Its name in the log and on the display; left out, its protocol."""
-    pty: str | None = Field(None, min_length=1)
+    pty: FilePath | None = None
     """The path of a symlink to a pseudo-terminal, for programs on the same machine."""
     serial: str | None = Field(None, min_length=1)
     """A serial port, or a URL of pyserial; a missing one is waited for."""
@@ -57,7 +57,7 @@ class Link(Table):
     """rotctld-follow: the time between questions."""
     udp: str | None = None
     """pstrotator, n1mm, macdoppler: where the box listens, "host:port"; 0.0.0.0 for broadcasts too."""
-    file: str | None = Field(None, min_length=1)
+    file: FilePath | None = None
     """wsjtx: the path of its azel.dat; a missing file is waited for."""
     body: Literal["Moon", "Sun", "Source"] = "Moon"
     """wsjtx: the body to follow."""
@@ -156,8 +156,8 @@ class Link(Table):
     @field_validator("serial", "pty", "file")
     @classmethod
     def _a_path_of_this_machine(cls, text: str | None) -> str | None:
-        if text is not None and not text.isprintable():
-            raise ValueError(f"{text!r} has a character that cannot be seen: write / in place of each \\")
+        if text is not None:
+            a_path(text)
         if text is not None and re.fullmatch(r"(?i)com\d+:?", text):
             raise ValueError(
                 f'"{text}" is a port of a Windows PC, and belongs in the program there; on this machine ports are '

@@ -6,11 +6,8 @@ The keys are in the model. `mistakes` finds what is wrong; here are only the rea
 from __future__ import annotations
 
 import difflib
-import tomllib
 from importlib.resources import files
 from pathlib import Path
-
-from pydantic import ValidationError
 
 from rotator.config import migrations, toml_text
 from rotator.config.mistake import ConfigError, Mistake
@@ -74,7 +71,7 @@ def parse(text: str, name: str) -> Config:
     """The checked configuration in a TOML text. `name` stands in the errors. Raises ConfigError."""
     try:
         return Config.model_validate(migrations.values(text))
-    except (tomllib.TOMLDecodeError, RecursionError, ValidationError, migrations.FormatError) as first:
+    except (ValueError, RecursionError, migrations.FormatError) as first:
         from rotator.config.mistakes import mistakes_in  # noqa: PLC0415 - only a file with a mistake needs it
 
         raise ConfigError(name, mistakes_in(text)) from first

@@ -18,6 +18,7 @@ from rotator.config.statements import Statement, places, statements
 
 _TWICE = re.compile(r"Cannot (?:declare|overwrite|mutate|redefine)|twice|immutable|already")
 _PLACE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
+_ENDLESS = re.compile(r"\d(?:_?\d){4300}")
 MOST = 50
 """The most mistakes that are looked for in one file."""
 SCRATCH = "#"
@@ -51,6 +52,8 @@ def mended(text: str, tables: Collection[str], lists: Collection[str], sorts: Ma
             reason = str(fault)
         except RecursionError:
             return Mended("", (*mistakes, Mistake("has too many brackets inside each other")), whole=False, whys={})
+        except ValueError:  # the one thing in TOML that Python refuses by itself
+            return Mended("", (*mistakes, _endless(text)), whole=False, whys={})
         mistake, line, better, why = _mistake(text, reason, sorts)
         rows = text.split("\n")
         if any(mistake.lines == each.lines for each in mistakes):
@@ -64,6 +67,12 @@ def mended(text: str, tables: Collection[str], lists: Collection[str], sorts: Ma
         rows[line - 1] = f'["{SCRATCH}{line}"]' if heading else better or ""
         text = "\n".join(rows)
     return Mended("", tuple(mistakes), whole=False, whys={})
+
+
+def _endless(text: str) -> Mistake:
+    """Python reads no whole number with more than some thousand digits."""
+    lines = (number for number, row in enumerate(text.split("\n"), 1) if _ENDLESS.search(row))
+    return Mistake("a number has thousands of digits", tuple(lines)[:1])
 
 
 def _brackets(text: str, tables: Collection[str], lists: Collection[str]) -> tuple[str, list[Mistake]]:

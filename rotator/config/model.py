@@ -37,19 +37,19 @@ from rotator.config.sim import Sim
 from rotator.config.sky import SkyTable
 from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.station import StationTable
-from rotator.config.table import Table
+from rotator.config.table import FilePath, Table
 
 SWITCH_ROOM_DEG = 2.0
 """How far above the place where homing ends at a limit switch the range may begin."""
 
 
 class StateTable(Table):
-    path: str = Field(STATE, min_length=1)
+    path: FilePath = STATE
     """The file with the learnt speed and coast of the motors; on a Pi `/var/lib/rotator/state.json`."""
 
 
 class MonitorTable(Table):
-    path: str | None = Field(None, min_length=1)
+    path: FilePath | None = None
     """The socket for `rotator monitor`; left out, in systemd's runtime directory, else beside the state file."""
 
 

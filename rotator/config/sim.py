@@ -8,7 +8,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from rotator.config.mount_model import MountTerms
-from rotator.config.table import PerAxis, Table
+from rotator.config.table import FilePath, PerAxis, Table
 
 
 class SimAxisTable(Table):
@@ -40,7 +40,7 @@ class Sim(PerAxis, Table):
     """The simulated elevation motor and pot."""
     mount: MountTerms = MountTerms()
     """How the simulated mount really stands."""
-    world: str | None = Field(None, min_length=1)
+    world: FilePath | None = None
     """A file with the true angles, from which the next run begins; the box then keeps its other files, as on a Pi."""
     bus_takes_time: bool = True
     """The simulated I2C bus is as slow as a real one."""

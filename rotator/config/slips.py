@@ -64,7 +64,7 @@ def _write(bare: str, mended: str, why: str) -> Slip | None:
     """Only a line that is TOML is advised."""
     try:
         tomllib.loads(mended)
-    except (tomllib.TOMLDecodeError, RecursionError):
+    except (ValueError, RecursionError):
         return None
     right = shown(_before_remark(mended))
     right = right.replace(" ", NO_BREAK) if len(right) < 30 else right

@@ -5,9 +5,10 @@ Knows how strictly the file is checked. Knows no key but `azimuth` and `elevatio
 
 from __future__ import annotations
 
+import os
 from typing import Annotated, Protocol, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
 
 from hw.ports import Axis
 
@@ -18,6 +19,24 @@ Channel = Annotated[int, Field(ge=0, le=3)]
 SECRET: dict[str, JsonValue] = {"writeOnly": True}
 """The mark of a key that no other person may read."""
 Point = Annotated[tuple[float, float], Field(strict=False)]
+
+
+def a_path(text: str) -> str:
+    """Raises ValueError for what cannot be a path of this machine."""
+    if not text.isprintable():
+        raise ValueError(f"{text!r} has a character that cannot be seen: write / in place of each \\")
+    return text
+
+
+def a_file(text: str) -> str:
+    """A path that names a file, and not a folder alone. Raises ValueError."""
+    a_path(text)
+    if os.path.basename(text).strip() in ("", ".", ".."):
+        raise ValueError(f'"{text}" is a folder: name the file in it')
+    return text
+
+
+FilePath = Annotated[str, Field(min_length=1), AfterValidator(a_file)]
 
 
 class Table(BaseModel):

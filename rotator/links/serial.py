@@ -48,7 +48,7 @@ class SerialLink:
         while True:
             try:
                 port = await asyncio.to_thread(self._open)
-            except (serial.SerialException, OSError, ValueError) as fault:
+            except Exception as fault:  # pyserial's URLs raise what their options run into: KeyError, re.error
                 self._tell(f"cannot be opened: {_why(fault)}")
             else:
                 self.wire.state = "open"
@@ -124,7 +124,7 @@ class SerialLink:
         self.wire.state = "waiting for it"
 
 
-def _why(fault: OSError | ValueError) -> str:
+def _why(fault: Exception) -> str:
     """In the system's words instead of pyserial's, which say everything twice."""
     match fault:
         case OSError(errno=errno.ENOENT):
@@ -133,8 +133,10 @@ def _why(fault: OSError | ValueError) -> str:
             return f"{os.strerror(errno.EACCES)}: `sudo usermod -aG dialout $USER`, then log in again"
         case OSError(errno=int() as number):
             return os.strerror(number)
-        case _:
+        case ValueError():
             return str(fault)
+        case _:
+            return f"what stands behind :// is wrong: {fault}"
 
 
 def _write(port: Any, data: bytes) -> None:

@@ -270,3 +270,9 @@ def test_a_file_without_a_key(tmp_path: Path, text: str) -> None:
     path.write_text(text)
     with pytest.raises(ConfigError, match="is empty: `rotator config --ask --to "):
         load(path)
+
+
+@pytest.mark.parametrize("digits", ["9" * 5000, "1_0" * 3000])
+def test_a_number_that_never_ends(digits: str) -> None:
+    with pytest.raises(ConfigError, match="line 2: a number has thousands of digits"):
+        parse(f"[azimuth]\nmax_deg = {digits}\n", "x")

@@ -112,3 +112,20 @@ def test_a_port_without_a_descriptor_is_let_go_of_quietly(wire: Wire, bench: Any
     for thread in threading.enumerate():
         if thread.name == wire.name:
             thread.join(PATIENCE_S)
+
+
+@pytest.mark.parametrize(
+    "url", ["hwgrep://(", "loop://?logging=nonsense", "alt://x?class=Nonsense", "rfc2217://", "no://"]
+)
+def test_a_url_that_pyserial_cannot_use_is_waited_for_like_a_port(
+    wire: Wire, new_ear: type[Any], running: Running, log: Any, url: str
+) -> None:
+    """Its handlers raise whatever they run into. A link must not end the box by that."""
+
+    async def talk() -> None:
+        async with running(SerialLink(wire, url, 9600, new_ear, retry_s=RETRY_S)):
+            await log.wait(f"link: {url} cannot be opened: ")
+            assert wire.state == "waiting for it"
+
+    asyncio.run(talk())
+    assert log.count("waiting for it") == 1
