@@ -41,9 +41,9 @@ def quick_monitors(path: Path | None) -> list[Path]:
     try:
         tables = tomllib.loads(_text(path))
         state, monitor = tables.get("state", {}).get("path", STATE), tables.get("monitor", {}).get("path")
-    except (OSError, ValueError, AttributeError):
+    except (OSError, ValueError, AttributeError, RecursionError):
         return _started_with(path)
-    usual = isinstance(state, str) and isinstance(monitor, str | None)
+    usual = isinstance(state, str) and (monitor is None or (isinstance(monitor, str) and bool(Path(monitor).name)))
     return monitor_places(state, monitor, os.environ) if usual else _started_with(path)
 
 

@@ -154,6 +154,24 @@ def test_no_box(rotator: Callable[..., Any], config: Path) -> None:
     assert done.stderr.startswith("rotator: no box runs here: nothing answers at ")
 
 
+@pytest.mark.parametrize("command", ["stop", "where", "monitor"])
+@pytest.mark.parametrize(
+    ("text", "mistake"),
+    [
+        ('[monitor]\npath = "/"\n', 'monitor.path: "/" is a folder'),
+        ("a = " + "[" * 20_000 + "]" * 20_000, "too many brackets"),
+        ("[azimuth]\nmax_deg = " + "9" * 5000, "thousands of digits"),
+    ],
+)
+def test_no_box_and_a_file_that_does_not_say_where_it_would_be(
+    rotator_here: Callable[..., Any], tmp_path: Path, command: str, text: str, mistake: str
+) -> None:
+    (tmp_path / "r.toml").write_text(text)
+    done = rotator_here(command, "--config", tmp_path / "r.toml")
+    assert done.returncode == 2
+    assert mistake in done.stderr
+
+
 def test_a_reader_that_has_gone_is_no_traceback(tmp_path: Path) -> None:
     config = tmp_path / "rotator.toml"
     config.write_text(f'[monitor]\npath = "{tmp_path}/monitor"\n')
