@@ -6,6 +6,7 @@ Knows seconds and degrees. Does not know the world, the orders or the line of th
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import dataclass, field
 
@@ -13,6 +14,7 @@ WELDED_S = 2.0
 TRY_S = 2.0
 SHOWN_S = 1.5
 """A weld that has turned the axis for this time can be known."""
+ALONE_DEG = 1.0
 COUNTED_PERIODS = 3
 """After this many periods of its contact without a change a counted axis can tell that it stands."""
 START_S = 0.5
@@ -74,6 +76,10 @@ class AxisCase:
     stood_s: float = 0.0
     """For how long a counted axis stood in short runs, taken together: `patience_s` of them is a try."""
     shorted_s: float = 0.0
+    alone_s: float = 0.0
+    """For how long presses of an axis that was never set up, of which no person was one, have not moved it."""
+    alone_deg: float = math.inf
+    """Where it stands meanwhile."""
     winds_down_s: float = 0.0
     """Until this moment a motor may still slow down under current after a stop: that is no try."""
     tries_s: deque[float] = field(default_factory=deque)
@@ -85,6 +91,12 @@ class AxisCase:
     def deaf_s(self) -> float:
         """How long the box may take to cut the supply of a control box that does not hear."""
         return max(WELDED_S, self.patience_s) if self.deaf else 0.0
+
+    def alone(self, past_s: float, shaft_deg: float, *, stands: bool) -> None:
+        """The box has fed the motor of an axis that no person watches."""
+        if abs(shaft_deg - self.alone_deg) > ALONE_DEG:
+            self.alone_s, self.alone_deg = 0.0, shaft_deg
+        self.alone_s += past_s if stands else 0.0
 
     def weld_feeds(self, past_s: float, *, fed: bool, turns: bool) -> None:
         """What has passed since the look before, while the box did not feed the motor."""

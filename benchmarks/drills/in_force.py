@@ -15,7 +15,7 @@ from benchmarks.drills.front_panel import STILL_AT_MOST_S, FrontPanel
 from benchmarks.drills.goals import AxisOrders, Goal, Ranges
 from benchmarks.drills.held_button import AT_END, BUTTON, HeldButton
 from benchmarks.drills.held_off import HeldOff
-from benchmarks.drills.script import PAGE, PANEL, PEOPLE, Event
+from benchmarks.drills.script import LINKS, PAGE, PANEL, PEOPLE, Event
 from benchmarks.drills.silenced import Silenced
 from benchmarks.drills.stops import Stops
 from benchmarks.drills.tracked import Tracked
@@ -93,6 +93,10 @@ class InForce:
     def attended(self) -> bool:
         """Whether a person sets an axis up, and watches the antenna."""
         return bool(self.lacking) and not self._left_alone
+
+    def by_person(self, axis: str) -> bool:
+        """Whether a person's order for this axis is in force."""
+        return any(not sender.startswith(LINKS) for sender in self.axes[axis].goals)
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""

@@ -38,6 +38,9 @@ GOING_SHARE = 0.1
 MET_S = 0.7
 """An axis that stops this soon after its relay opened may have coasted to rest: the box need not see a weld."""
 FAR_DEG = 10.0
+ALONE_S = 12.0
+"""Programs may press an axis that was never set up for this time in all without moving it: a press that meets its stop,
+one in which its readings settle, 4.5 s of further ones, and the rest of the last."""
 CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
 """An order starts each axis once. More than `CHATTER_STARTS` further starts within `CHATTER_S` are chatter."""
 
@@ -91,7 +94,7 @@ class Judges:
             self._released_s = self._orders.stops.released_s
             for case in self.cases:
                 case.tries_s.clear()
-                case.at_stops_s = 0.0
+                case.at_stops_s = case.alone_s = 0.0
         pressed, self._pressed_s = self._orders.button.pressed_s != self._pressed_s, self._orders.button.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
             if pressed and self._watched(truth, case):
@@ -121,6 +124,7 @@ class Judges:
             orders.turned(now_s, truth.coil, self._past_s)
             self._unordered(truth, case)
             self._standing(truth, case)
+            self._alone(truth, case)
             if not orders.homes:  # when an axis homes, a person watches it touch its stop
                 self._beyond(truth, case)
                 self._away(truth, case, orders)
@@ -246,6 +250,16 @@ class Judges:
         passes_by = not truth.relayed and any(not goal.angles_deg and not goal.way for goal in goals)
         if case.standing_s > case.patience_s * (2.0 if passes_by else 1.0) + LOOK_S:
             self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
+
+    def _alone(self, truth: AxisTruth, case: AxisCase) -> None:
+        """Accuse programs that press an axis on and on which was never set up, does not move, and has no person."""
+        left_alone = truth.name == self._orders.lacking and not self._orders.attended
+        if not left_alone or case.counts or case.drifts or self._orders.by_person(truth.name):
+            case.alone_s = 0.0
+            return
+        case.alone(self._past_s, truth.shaft_deg, stands=truth.stands)
+        if case.alone_s > ALONE_S:
+            self._accuse(STANDING_CURRENT, truth, f"never set up, and left alone, for {case.alone_s:.2f} s in all")
 
     def there(self, axes: list[AxisTruth]) -> frozenset[str]:
         """The axes whose control box has arrived, as far as the box can see."""
