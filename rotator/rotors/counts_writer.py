@@ -48,10 +48,10 @@ class _Jobs:
     def __call__(self, job: Callable[[], None]) -> None:
         self._jobs.put(job)
 
-    def end(self) -> None:
-        """Do what has been asked, and end. Returns after a while, also while a job hangs."""
+    def end(self, patience_s: float) -> None:
+        """Do what has been asked, and end. Returns after this time, also while a job hangs."""
         self._jobs.put(None)
-        self._thread.join(CLOSES_S)
+        self._thread.join(patience_s)
 
     def _run(self) -> None:
         while (job := self._jobs.get()) is not None:
@@ -116,7 +116,7 @@ class CountsWriter:
             self._new_state(axis, Mark.NONE)
             self._later(lambda: self._file.home(axis, angle_deg))
 
-    def close(self) -> None:
+    def close(self, patience_s: float = CLOSES_S) -> None:
         """Write the angle of each axis that stands, and end the thread; do not wait for a card that hangs.
 
         May be called twice.
@@ -126,7 +126,7 @@ class CountsWriter:
                 self._run_later(self._file.close)
             self._closed = True
         if self._thread:
-            self._thread.end()
+            self._thread.end(patience_s)
 
     def _later(self, job: Callable[[], None]) -> None:
         with self._lock:

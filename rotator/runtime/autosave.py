@@ -9,16 +9,22 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
+from functools import partial
 from pathlib import Path
 
 from hw.ports import Axis
 from rotator.config.load import ConfigError
 from rotator.control.sky.offsets import Offsets
+from rotator.runtime.aside import aside
 from rotator.runtime.loop import ControlLoop
+from rotator.store.hanging import within
 from rotator.store.learnt import LearntFile, Motors
 
 log = logging.getLogger(__name__)
 
+AUTOSAVE_THREAD = "autosave"
+CLOSES_S = 2.0
+"""The end of the program waits for this time at most: a card may hang."""
 CALIBRATIONS_EVERY_S = 1.0
 CALIBRATIONS_AGAIN_S = 10.0
 """The pause after a calibration that could not be saved."""
@@ -50,12 +56,15 @@ class Autosave:
             await asyncio.sleep(CALIBRATIONS_EVERY_S)
             rounds += 1
             if not self._troubles or rounds * CALIBRATIONS_EVERY_S % CALIBRATIONS_AGAIN_S == 0:
-                await asyncio.to_thread(self.keep_calibrations)
+                await aside(self.keep_calibrations, AUTOSAVE_THREAD)
             if rounds * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
-                await asyncio.to_thread(self._keep_learnt, ending=False)
+                await aside(partial(self._keep_learnt, ending=False), AUTOSAVE_THREAD)
 
-    def close(self) -> None:
-        """Save the last changes. May be called twice."""
+    def close(self, patience_s: float = CLOSES_S) -> None:
+        """Save the last changes. Returns after this time, also while the card hangs. May be called twice."""
+        within(patience_s, self._close, AUTOSAVE_THREAD)
+
+    def _close(self) -> None:
         self.keep_calibrations()
         self._keep_learnt(ending=True)
 

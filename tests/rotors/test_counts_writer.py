@@ -179,5 +179,5 @@ def test_the_end_does_not_wait_for_a_card_that_hangs(path: Path) -> None:
     with hanging(path):
         assert not counts_writer.may_start(AZ)
         wait_until(lambda: path in writes().values())
-        counts_writer.close()
+        counts_writer.close(0.05)
         assert [thread for thread in threading.enumerate() if thread.name == COUNTS_THREAD and thread.daemon]

@@ -18,6 +18,8 @@ from rotator.exchange.orders import Aim, Calibrate, Order
 from rotator.exchange.sources import Source
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.loop import ControlLoop
+from rotator.store.hanging import writes
+from tests.refusing import hanging, wait_until
 
 STATION = """
 [azimuth]
@@ -209,3 +211,15 @@ def test_closed_twice_it_saves_once(path: Path) -> None:
     written_ns = state.stat().st_mtime_ns
     box.autosave.close()
     assert state.stat().st_mtime_ns == written_ns
+
+
+def test_the_end_does_not_wait_for_a_card_that_hangs_and_the_figures_are_written_when_it_goes_on(path: Path) -> None:
+    box = Running(path, path)
+    box.turn_about()
+    state = path.parent / "var" / "state.json"
+    with hanging(state):
+        box.autosave.close(0.05)
+        assert not state.exists()
+    wait_until(lambda: not writes())
+    box.autosave.close()
+    assert state.exists()
