@@ -43,6 +43,10 @@ class AimAngles:
         self._wavering: dict[str, Wavering] = {}
         """By sender, and under "" for all senders together: orders without effect then hide no moving target."""
 
+    def rescaled(self) -> None:
+        """The ranges are others."""
+        self._wavering.clear()
+
     def forget(self) -> None:
         """All orders end."""
         for wavering in self._wavering.values():

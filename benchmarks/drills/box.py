@@ -67,7 +67,7 @@ class Box:
         """`card`: with the state files. `begun_s`: when the drill began, on the clock."""
         self.config = config
         self._clock = clock
-        folder, memory = card.folder, card.memory
+        self._card, folder, memory = card, card.folder, card.memory
         self.alive = True
         self.sentinel = DrilledSentinel(clock)
         if world is not None:
@@ -145,6 +145,10 @@ class Box:
         now_s = self._clock()
         if self.panel:
             self.panel.cycle(now_s)
+        if self._card.hangs:
+            for lane in self._lanes:
+                lane.work()
+            self._card.work()
         if now_s - self._looked_s < LOOKS_S:
             return
         self._looked_s = now_s

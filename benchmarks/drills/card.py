@@ -78,6 +78,11 @@ class Card:
                 where.unlink(missing_ok=True)
                 os.mkfifo(where)
 
+    def work(self) -> None:
+        """While it hangs: the threads begin what has come for them."""
+        for lane in self._lanes:
+            lane.work()
+
     def change(self, name: str, how: str, now_s: float) -> None:
         """Another program or a person changes this file."""
         path = self.folder / name

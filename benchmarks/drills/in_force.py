@@ -55,8 +55,8 @@ class InForce:
         at_end: Callable[[str, int], bool] = lambda _axis, _way: False,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
-        spans = dict(zip(AXES, ranges, strict=True))
-        self._park_deg = dict(zip(AXES, park_deg, strict=True))
+        self._spans: dict[str, Ranges] = {}
+        self._park_deg: dict[str, float] = {}
         self.lacking = lacking
         self._left_alone = left_alone
         self._parks_idle = parks_idle
@@ -82,12 +82,19 @@ class InForce:
         """A direction is in force for certain: nothing held back its order, and nothing has ended it."""
         self._listed = False
         """The box may have a list to run."""
-        self._tracked = Tracked(self.axes, spans, follows=follows, lacking=lacking)
-        self._aims = AimAngles(self.axes, spans, self._tracked.recognised, lacking=lacking, over_top=over_top)
+        self._tracked = Tracked(self.axes, self._spans, follows=follows, lacking=lacking)
+        self._aims = AimAngles(self.axes, self._spans, self._tracked.recognised, lacking=lacking, over_top=over_top)
         self.heard = 0
         """How many orders there have been."""
+        self.rescale(ranges, park_deg)
         self._knob: Event | None = None
         """The latest turn of a knob of the panel."""
+
+    def rescale(self, ranges: tuple[Ranges, Ranges], park_deg: tuple[float, float]) -> None:
+        """The ranges and the park position in true degrees, as the program's configuration has them from now on."""
+        self._spans.update(zip(AXES, ranges, strict=True))
+        self._park_deg.update(zip(AXES, park_deg, strict=True))
+        self._aims.rescaled()
 
     @property
     def attended(self) -> bool:

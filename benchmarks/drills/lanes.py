@@ -35,14 +35,22 @@ class Lane:
         """Whether a job waits for the card."""
         return self._thread is not None
 
+    @property
+    def hangs(self) -> bool:
+        return self._hangs()
+
     def __call__(self, job: Callable[[], object]) -> None:
-        """Do this job after those that came before."""
-        if self._thread is not None:
+        """Do this job after those that came before. On a card that hangs it begins in `work`: its caller may hold what
+        the job needs."""
+        if self.busy or self.hangs:
             self._jobs.append(job)
-        elif not self._hangs():
-            job()
         else:
-            self._thread = threading.Thread(target=job, daemon=True)
+            job()
+
+    def work(self) -> None:
+        """The card hangs: begin the jobs that have come, up to the first one that waits for the card."""
+        while self._jobs and self._thread is None:
+            self._thread = threading.Thread(target=self._jobs.popleft(), daemon=True)
             self._thread.start()
             while self._thread.is_alive() and self._file not in writes().values():
                 self._thread.join(LOOKS_S)
@@ -69,16 +77,28 @@ class KeptLane(Generic[T]):
         self._lane, self._save, self._spare = lane, save, spare
         self._newest = kept
         self._tried_s = 0.0
+        self._fresh = False
+        """The newest note has come since the card hangs, and is nowhere yet."""
 
     def start(self) -> None:
         self.note(self._newest)
 
     def note(self, newest: T) -> None:
         self._newest = newest
-        if self._lane.busy:
-            self._spare(newest)
+        if self._lane.hangs:
+            self._fresh = True
         else:
             self._lane(lambda: self._save(newest))
+
+    def work(self) -> None:
+        """The card hangs: write the newest note, or note it in memory while an older one waits for the card."""
+        if self._fresh:
+            self._fresh, newest = False, self._newest
+            if self._lane.busy:
+                self._spare(newest)
+            else:
+                self._lane(lambda: self._save(newest))
+                self._lane.work()
 
     def end(self, save: Callable[[T], bool]) -> None:
         """The program ends: write the present state this way. It does not wait for a card that hangs."""
@@ -86,6 +106,6 @@ class KeptLane(Generic[T]):
 
     def look(self, now_s: float) -> None:
         """Save the same again: the card may have refused it, or the file have been changed."""
-        if not self._lane.busy and now_s - self._tried_s >= SAVES_AGAIN_S:
-            self._tried_s = now_s
+        if not self._lane.busy and (self._fresh or now_s - self._tried_s >= SAVES_AGAIN_S):
+            self._tried_s, self._fresh = now_s, False
             self.note(self._newest)

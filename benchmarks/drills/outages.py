@@ -15,7 +15,7 @@ from benchmarks.drills.card import HANGS, NAMES, REFUSES, REFUSES_LATER, WAYS, W
 from benchmarks.drills.script import CLOCK, COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Event
 from rotator.assembly.adc import SUPPLY
 
-LOOPS, CARDS, FILES, BUSES, PAGES = 0.1, 0.2, 0.06, 0.04, 0.06
+LOOPS, CARDS, FILES, CONFIGS, BUSES, PAGES = 0.1, 0.2, 0.06, 0.08, 0.04, 0.06
 """The shares of drills with each of these failures; of the supply, among the boxes that measure it: all."""
 HANGS_S = (1.0, 4.0, 10.0, 60.0, 300.0)
 
@@ -42,6 +42,8 @@ def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], fl
         for name in chance.sample(NAMES, chance.choice((1, 1, 2, len(NAMES)))):
             events.append(_at(chance.uniform(0.0, seconds), WORLD, "file", name, chance.choice(WAYS)))
         events.append(_at(chance.uniform(0.0, seconds), PROGRAM, chance.choice(("kill", "restart")), 2.0))
+    if mast.rotor.relays and "forbidden" not in mast.tables.get("mount", {}) and chance.random() < CONFIGS:
+        events += _configured_anew(chance, mast, seconds)
     if chance.random() < PAGES:
         events.append(_at(chance.uniform(0.0, seconds), CLOCK, "page-stalled", chance.choice((0.5, 1.5, 5.0, 20.0))))
     if "reference_channel" in mast.tables.get("adc", {}):
@@ -90,6 +92,22 @@ def _while_it_hangs(chance: random.Random, at_s: float) -> list[Event]:
         events.append(_at(at_s, link, "aim", float(chance.randrange(360)), float(chance.randrange(90))))
         at_s += chance.choice((0.5, 5.0))
     return events
+
+
+def _configured_anew(chance: random.Random, mast: Mast, seconds: float) -> list[Event]:
+    """A person changes the configuration while the box runs, and a new run of the program reads it."""
+    at_s, axis = chance.uniform(0.0, seconds), chance.randrange(2)
+    keys = [
+        ("tolerance_deg", chance.choice((1.0, 2.0, 5.0))),
+        ("speed_dps", mast.speed_dps[axis] * chance.choice((0.7, 1.4))),
+    ]
+    if mast.has_pots:
+        keys.append(("offset_deg", chance.choice((-10.0, -2.0, 3.0, 12.0))))
+    key, value = chance.choice(keys)
+    again = _at(
+        at_s + chance.uniform(0.1, 20.0), PROGRAM, chance.choice(("kill", "restart")), chance.choice((0.5, 5.0))
+    )
+    return [_at(at_s, WORLD, "config", BOTH[axis], key, value), again]
 
 
 def _supply(chance: random.Random, seconds: float) -> list[Event]:

@@ -73,6 +73,25 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
     )
 
 
+def reconfigure(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase, AxisCase], orders: Orders) -> None:
+    """The next run of the program has this configuration. What excused an axis before goes on."""
+    for case, now in zip(cases, axis_cases(config, truths), strict=True):
+        case.low_deg, case.high_deg, case.tolerance_deg = now.low_deg, now.high_deg, now.tolerance_deg
+        case.shift_deg, case.patience_s = now.shift_deg, max(case.patience_s, now.patience_s)
+    orders.rescale(*_scales(config))
+
+
+def _scales(config: Config) -> tuple[tuple[Ranges, Ranges], tuple[float, float]]:
+    """The ranges of both axes and the park position, in true degrees."""
+    shift, flips = build_offsets(config), config.mount.flip == "over-top"
+    azimuth, elevation = (
+        Ranges(config.axis(axis).min_deg + shift.of(axis), config.axis(axis).max_deg + shift.of(axis), flips)
+        for axis in Axis
+    )
+    park_deg = config.mount.park_azimuth_deg, config.mount.park_elevation_deg
+    return (azimuth, elevation), (park_deg[0] + shift.azimuth_deg, park_deg[1] + shift.elevation_deg)
+
+
 def build_orders(
     config: Config,
     truths: list[AxisTruth],
@@ -81,15 +100,9 @@ def build_orders(
     lacking: str,
     left_alone: bool = False,
 ) -> Orders:
-    shift, park_deg = build_offsets(config), (config.mount.park_azimuth_deg, config.mount.park_elevation_deg)
-    flips = config.mount.flip == "over-top"
-    ranges = [
-        Ranges(config.axis(axis).min_deg + shift.of(axis), config.axis(axis).max_deg + shift.of(axis), flips)
-        for axis in Axis
-    ]
+    shift = build_offsets(config)
     return Orders(
-        (ranges[0], ranges[1]),
-        (park_deg[0] + shift.azimuth_deg, park_deg[1] + shift.elevation_deg),
+        *_scales(config),
         lacking=lacking,
         left_alone=left_alone,
         over_top=lambda: truths[1].shaft_deg + shift.elevation_deg + cases[1].slack_deg > ZENITH_DEG,

@@ -33,9 +33,14 @@ def load(path: Path | None) -> Config:
         raise ConfigError(str(path), [Mistake(_unreadable(path, fault))]) from fault
     except toml_text.NoTextError as none:
         raise ConfigError(str(path), [none.mistake]) from none
-    if not any(row.strip() and not row.strip().startswith("#") for row in text.splitlines()):
+    if is_empty(text):
         raise ConfigError(str(path), [Mistake(f"is empty: {_MAKES.format(path)}")])
     return parse(text, str(path))
+
+
+def is_empty(text: str) -> bool:
+    """Whether the text of a file says nothing: it has only comments and empty lines."""
+    return not any(row.strip() and not row.strip().startswith("#") for row in text.splitlines())
 
 
 def shipped(name: str = SIMULATED) -> str:

@@ -15,7 +15,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import Array
 
 from rotator.config import toml_text
-from rotator.config.load import ConfigError, Mistake, parse
+from rotator.config.load import ConfigError, Mistake, is_empty, parse
 from rotator.config.migrations import FormatError, brought_up
 from rotator.config.writing import WRITING, replace
 
@@ -34,6 +34,9 @@ def save_table(
     with WRITING:
         try:
             before = toml_text.read(path)
+            if is_empty(before):
+                # Another program has emptied it. With these keys alone it would be the file of a simulated station.
+                raise ConfigError(str(path), [Mistake("is empty")])
             text = changed(before, name, calibration=calibration, points=points, **values)
         except (TOMLKitError, TOMLDecodeError) as fault:
             raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault

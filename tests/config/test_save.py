@@ -68,8 +68,6 @@ def test_a_long_table_has_a_line_for_each_point() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "",
-        "# only a comment",
         '[[link]]\nprotocol = "rotctld"\npty = "x"',
         "azimuth.min_deg = 0\n",
         "azimuth = { min_deg = 0 }\n",
@@ -77,7 +75,7 @@ def test_a_long_table_has_a_line_for_each_point() -> None:
         '[azimuth]\n"calibration" = [\n  [0.2, 0], # low\n  [0.3, 50],\n]\n',
         "\r\n".join(STATION.splitlines()) + "\r\n",
     ],
-    ids=["empty", "comment", "no table, no newline", "dotted", "inline", "sim only", "many lines", "crlf"],
+    ids=["no table, no newline", "dotted", "inline", "sim only", "many lines", "crlf"],
 )
 def test_any_form_of_file(tmp_path: Path, text: str) -> None:
     path = tmp_path / "a.toml"
@@ -87,6 +85,16 @@ def test_any_form_of_file(tmp_path: Path, text: str) -> None:
     assert azimuth.direction_checked
     assert azimuth.calibration is not None
     assert len(azimuth.calibration) == 3
+
+
+@pytest.mark.parametrize("text", ["", "# only a comment\n"])
+def test_an_emptied_file_does_not_become_the_file_of_a_simulated_station(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "a.toml"
+    path.write_text(text)
+    with pytest.raises(ConfigError, match="is empty"):
+        save_table(path, "azimuth", calibration=POINTS)
+    assert [each.name for each in tmp_path.iterdir()] == ["a.toml"]
+    assert path.read_text() == text
 
 
 @pytest.mark.parametrize(

@@ -223,3 +223,22 @@ def test_the_end_does_not_wait_for_a_card_that_hangs_and_the_figures_are_written
     wait_until(lambda: not writes())
     box.autosave.close()
     assert state.exists()
+
+
+@pytest.mark.parametrize("left", ["", "# nothing but this\n\n", "[azimuth\n", "\x00\x00", None])
+def test_a_file_that_was_emptied_or_spoilt_under_the_box_is_not_replaced_by_a_calibration_alone(
+    path: Path, left: str | None, caplog: pytest.LogCaptureFixture
+) -> None:
+    box, whole, kept = Running(path, path), path.read_text(), path.with_name(path.name + ".bak")
+    kept.write_text("the file before")
+    if left is None:
+        path.unlink()
+    else:
+        path.write_text(left)
+    calibrate_low(box, Axis.AZIMUTH)
+    assert "azimuth: calibration cannot be saved" in caplog.text
+    assert (path.read_text() if path.exists() else None) == left
+    assert kept.read_text() == "the file before"
+    path.write_text(whole)
+    box.autosave.keep_calibrations()
+    assert load(path).azimuth.calibration is not None
