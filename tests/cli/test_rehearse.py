@@ -6,39 +6,17 @@ import csv
 import json
 import re
 import subprocess
-from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from rotator.cli.utc import iso
 from rotator.config.load import shipped
-from rotator.control.sky.angles import great_circle_deg
-from rotator.orbits.catalogue import Catalogue
-from rotator.orbits.earth import Site
-from rotator.orbits.passes import passes
-from rotator.orbits.satellite import Satellite
-from rotator.orbits.targets import find
 from tests.cli.conftest import COMMAND
-from tests.orbits.skyfield_oracle import TLE
+from tests.cli.rehearsed import Figures, Rotator, figures, through_the_south
 
 KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s", "recognised", "faults"]
 COLUMNS = ["t", "target_az", "target_el", "antenna_az", "antenna_el", "az_drive", "el_drive"]
-Rotator = Callable[..., Any]
-
-
-Figures = dict[str, Any]
-Rows = list[tuple[float, float, float]]
-
-
-def through_the_south(folder: Path) -> Path:
-    """A pass of a minute."""
-    path = folder / "south.csv"
-    rows = [f"{t},{100 + t},{10 + t / 4}" for t in range(0, 61, 10)]
-    path.write_text("t,az,el\n" + "\n".join(rows) + "\n")
-    return path
 
 
 @pytest.fixture
@@ -53,11 +31,6 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> tuple[Figures, bytes]:
     words = ["rehearse", through_the_south(folder).name, "--json", "--trace", "trace.csv"]
     done = subprocess.run([*COMMAND, *words], cwd=folder, capture_output=True, text=True, timeout=300, check=False)
     return figures(done), (folder / "trace.csv").read_bytes()
-
-
-def figures(done: Any) -> Figures:
-    assert done.returncode == 0, done.stderr
-    return dict(json.loads(done.stdout))
 
 
 # --- what comes out
@@ -247,162 +220,3 @@ def test_a_fault_strikes(rotator: Rotator, flown: Path, plain: tuple[Figures, by
     (fault,) = struck["faults"]
     assert fault.startswith("azimuth: pot open or shorted: ")
     assert done.stderr.endswith(f"rotator: at the end of the pass:\n         {fault}\n")
-
-
-# --- a table that names its turns
-
-
-ACROSS_NORTH: Rows = [(t, 340.0 + t / 2, 20.0) for t in range(0, 121, 10)]
-OVER_THE_TOP: Rows = [(t, 40.0, 10.0 + t) for t in range(0, 161, 10)]
-AND_BACK: Rows = [(t, 40.0, 170.0 - t) for t in range(0, 161, 10)]
-
-
-def turns(folder: Path, rows: Rows) -> Path:
-    path = folder / "turns.csv"
-    path.write_text("t,az,el\n" + "".join(f"{t},{az},{el}\n" for t, az, el in rows))
-    return path
-
-
-@pytest.mark.parametrize(
-    ("via", "rows"),
-    [(via, rows) for via in ("gs232", "rotctld", "track") for rows in (ACROSS_NORTH, OVER_THE_TOP, AND_BACK)],
-)
-def test_a_table_that_names_its_turn_is_flown_on_it(
-    rotator_here: Rotator, tmp_path: Path, via: str, rows: Rows
-) -> None:
-    trace = tmp_path / "trace.csv"
-    figures(rotator_here("rehearse", turns(tmp_path, rows), "--via", via, "--json", "--trace", trace))
-    flown = [[float(each) for each in row] for row in list(csv.reader(trace.read_text().splitlines()))[1:]]
-    assert max(row[1] for row in flown) <= 360.0, "the target is on the sky"
-    assert max(row[2] for row in flown) <= 90.0
-    assert max(great_circle_deg(*row[1:5]) for row in flown if row[0] > 60.0) < 8.0, "once the antenna has come there"
-    assert flown[-1][3:5] == pytest.approx(rows[-1][1:], abs=8.0), "the antenna is on the turn that is named"
-
-
-@pytest.mark.parametrize("beyond", [90.0, 100.0, 260.0])
-def test_a_turn_that_the_rotor_does_not_have_is_refused_before_the_flight(
-    rotator_here: Rotator, tmp_path: Path, beyond: float
-) -> None:
-    rows = [(t, azimuth_deg + beyond, elevation_deg) for t, azimuth_deg, elevation_deg in ACROSS_NORTH]
-    done = rotator_here("rehearse", turns(tmp_path, rows), "--json")
-    assert (done.returncode, done.stdout) == (1, "")
-    assert re.search(r"turns, line \d+: azimuth 4[5-9]\d\.\d°|azimuth [56]\d\d", done.stderr)
-    assert "outside the rotor's azimuth range of 0° to 450°, on the turn that the table names" in done.stderr
-
-
-# --- what is refused
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (None, "cannot be read: "),
-        ("", "is empty. The first line is t,az,el; "),
-        ("t,az,el\n0,0,0\n", "a pass needs two rows or more"),
-        ("t,az,el\n0,0,0\n1,north,0\n", "t, az and el must be numbers"),
-        ("t,az,el\n0,0,0\n0,1,0\n", ":3: t must rise from row to row"),
-    ],
-    ids=["missing", "empty", "one row", "a word", "no time"],
-)
-def test_a_bad_pass(rotator_here: Rotator, tmp_path: Path, text: str | None, said: str) -> None:
-    path = tmp_path / "bad.csv"
-    if text is not None:
-        path.write_text(text)
-    done = rotator_here("rehearse", path, "--json")
-    assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr.startswith(f"rotator: {path}")
-    assert said in done.stderr
-
-
-@pytest.mark.parametrize(
-    ("words", "said", "code"),
-    [
-        (("--via", "telepathy"), "'telepathy' is not one of", 2),
-        (("--fault", "gremlins"), "no fault called gremlins", 2),
-        (("--arduino", "--fault", "adc-gone"), "--fault is for the box", 2),
-        (("--config", "nowhere.toml"), "nowhere.toml: 1 mistake", 2),
-        (("--fault", "azimuth-pot-open@"), "after @ stands the moment in seconds, such as azimuth-pot-open@20", 2),
-        (("--fault", "azimuth-pot-open@-3"), "azimuth-pot-open@-3: after @ stands the moment in seconds", 2),
-        (("--fault", "azimuth-pot-open@nan"), "azimuth-pot-open@nan: after @ stands the moment in seconds", 2),
-        (("--fault", "azimuth-pot-open@60"), "azimuth-pot-open@60: south ends after 60 s", 2),
-        (("--trace", "nowhere/trace.csv"), "nowhere/trace.csv: cannot be written: No such file or directory", 1),
-    ],
-)
-def test_what_cannot_be_done(
-    rotator_here: Rotator, flown: Path, *, words: tuple[str, ...], said: str, code: int
-) -> None:
-    done = rotator_here("rehearse", flown, *words)
-    assert done.returncode == code
-    assert said in done.stderr
-
-
-def test_a_shipped_pass_is_found_by_its_name(rotator_here: Rotator) -> None:
-    """Here by what is said of a fault after its end: nothing has to be flown for that."""
-    done = rotator_here("rehearse", "north-1-iss", "--fault", "azimuth-pot-open@900")
-    assert "azimuth-pot-open@900: north-1-iss ends after 651 s" in done.stderr
-
-
-def test_the_faults_there_are(rotator_here: Rotator, flown: Path) -> None:
-    done = rotator_here("rehearse", flown, "--fault", "list")
-    assert done.returncode == 0
-    assert "azimuth-pot-open" in done.stdout.splitlines()
-
-
-# --- a program's stream, recognised
-
-
-SKY = """[station]
-latitude_deg = 48.85
-longitude_deg = 2.35
-[sky]
-elements = ["{elements}"]
-"""
-
-
-@pytest.fixture
-def sky(tmp_path: Path) -> tuple[Path, Path, str]:
-    """A configuration that knows satellites, the first minute of a pass of the ISS, and when it begins."""
-    station, path = tmp_path / "station.toml", tmp_path / "minute.csv"
-    station.write_text(SKY.format(elements=TLE), encoding="utf-8")
-    iss = find("iss", Site(48.85, 2.35), Catalogue((str(TLE),)))
-    assert isinstance(iss, Satellite)
-    aos_s = next(passes(iss, iss.elements.epoch_utc_s, iss.elements.epoch_utc_s + 86_400.0)).aos_s
-    assert aos_s is not None
-    sights = [(t, iss.sight(aos_s + t)) for t in range(61)]
-    rows = [f"{t},{sight.azimuth_deg},{sight.elevation_deg}" for t, sight in sights]
-    path.write_text("t,az,el\n" + "\n".join(rows) + "\n", encoding="utf-8")
-    return station, path, iso(aos_s)
-
-
-def test_the_satellite_in_a_programs_stream_is_named(rotator_here: Rotator, sky: tuple[Path, Path, str]) -> None:
-    station, path, begin = sky
-    told = figures(rotator_here("rehearse", path, "--config", station, "--at", begin, "--json"))
-    assert told["recognised"]["name"] == "ISS"
-    after_s = told["recognised"]["after_s"]
-    assert 7.0 <= after_s <= 10.0
-    sentence = rotator_here("rehearse", path, "--config", station, "--at", begin).stdout
-    assert sentence.endswith(f"; it recognised ISS after {after_s:.0f} s\n")
-
-
-def test_a_day_later_it_is_no_satellite(rotator_here: Rotator, sky: tuple[Path, Path, str]) -> None:
-    station, path, begin = sky
-    later = begin.replace("2025-02-28", "2025-03-02").replace("2025-03-01", "2025-03-02")
-    assert later != begin
-    assert figures(rotator_here("rehearse", path, "--config", station, "--at", later, "--json"))["recognised"] is None
-
-
-def test_a_station_that_only_fetches_elements_has_a_sky(rotator_here: Rotator, sky: tuple[Path, Path, str]) -> None:
-    station, path, begin = sky
-    text = station.read_text(encoding="utf-8")
-    assert "\nelements = " in text
-    fetch = 'fetch = "http://127.0.0.1:1/elements"'
-    station.write_text("\n".join(fetch if each.startswith("elements") else each for each in text.splitlines()))
-    done = figures(rotator_here("rehearse", path, "--config", station, "--at", begin, "--json"))
-    assert done["recognised"] is None, "none has been fetched"
-
-
-def test_a_moment_without_a_sky_is_refused(rotator_here: Rotator, flown: Path) -> None:
-    done = rotator_here("rehearse", flown, "--at", "2025-02-28T18:00:00Z")
-    assert done.returncode == 2
-    assert "[station]" in done.stderr
-    assert "[sky] elements" in done.stderr

@@ -12,7 +12,7 @@ from rotator.exchange.sources import Source
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.errands import SAID_S, Errands
 from rotator.runtime.loop import ControlLoop
-from tests.runtime.test_loop import Rig
+from tests.runtime.loop_rig import Rig
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 WORDS: dict[Errand, str] = {

@@ -15,7 +15,7 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 from hw.moteus.placing import BEYOND_DEG
 from hw.ports import Axis, HardwareError
-from tests.hw.moteus.test_drive import Bench
+from tests.hw.moteus.drive_bench import Bench
 from tests.search import examples
 
 AZ = Axis.AZIMUTH
