@@ -70,22 +70,29 @@ class SparedFile:
         self.note(content)
         if not self._card.save(content):
             return False
-        with self._lock:
-            if self._noted is content:
-                self._forget()
+        self.forget_note(content)
         return True
 
-    def note(self, content: Mapping[str, object]) -> None:
-        """Write it in memory alone: it may change often, and cards wear; or the card hangs."""
+    @property
+    def noted(self) -> Mapping[str, object]:
+        """What was noted in memory last."""
+        return self._noted
+
+    def note(self, content: Mapping[str, object], *, after: Mapping[str, object] | None = None) -> None:
+        """Write it in memory alone: it may change often, and cards wear; or the card hangs. `after`: only if that was
+        noted last, for another thread may have noted something newer."""
         with self._lock:
+            if after is not None and self._noted is not after:
+                return
             self._noted = content
             if self._memory is not None:
                 self._memory.save(content)
 
-    def forget_note(self) -> None:
-        """The card has it all."""
+    def forget_note(self, content: Mapping[str, object]) -> None:
+        """The card has it all, if this was noted last."""
         with self._lock:
-            self._forget()
+            if self._noted is content:
+                self._forget()
 
     def _forget(self) -> None:
         if self._memory is not None:

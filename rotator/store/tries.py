@@ -86,15 +86,16 @@ class TriesFile:
         """Write the changes. False: the card has not taken them; call it again after a pause, with the same."""
         counted = {axis: replace(each, driven=False) for axis, each in tries.items()}
         again, self._last = tries == self._last, dict(tries)
-        different = counted != self._written or self._file.changed
+        different, noted = counted != self._written or self._file.changed, self._file.noted
         if different and (not self._refuses(counted) or again):
             # After a refusal it is not known what is on the card: so the next content is always written.
-            kept = self._file.save(self._content(counted))
+            noted = self._content(counted)
+            kept = self._file.save(noted)
             self._written, self._refused = (counted, None) if kept else (None, counted)
         if tries == self._written:
-            self._file.forget_note()
+            self._file.forget_note(noted)
         else:
-            self._file.note(self._content(tries))
+            self._file.note(self._content(tries), after=noted)
         return self._written is not None
 
     def spare(self, tries: Mapping[Axis, Tries]) -> None:

@@ -108,14 +108,14 @@ def test_a_note_wears_no_card_and_is_newer_than_it(card: Path, memory: Path) -> 
     assert loaded(opened(card, None)) == 1
     assert loaded(opened(card, memory)) == 2
     for _ in range(2):
-        file.forget_note()
+        file.forget_note(file.noted)
         assert loaded(opened(card, memory)) == 1
 
 
 def test_without_a_memory_a_note_is_none(card: Path) -> None:
     file = opened(card, None)
     file.note({"number": 2})
-    file.forget_note()
+    file.forget_note(file.noted)
     assert not file.in_memory
     assert not card.parent.exists()
 
