@@ -14,9 +14,9 @@ from functools import partial
 from itertools import pairwise
 from multiprocessing import get_context
 
+from benchmarks.drills.accusations import STARTS, TABLE, Violation
 from benchmarks.drills.boxes import KINDS
 from benchmarks.drills.draw import draw
-from benchmarks.drills.judges import STARTS, TABLE, Violation
 from benchmarks.drills.play import FAILS, play
 from benchmarks.drills.scene import spoils_readings
 from benchmarks.drills.script import Drill

@@ -16,12 +16,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from benchmarks.drills.accusations import Violation
 from benchmarks.drills.befall import WorldEvents
 from benchmarks.drills.box import Box
 from benchmarks.drills.card import WORKS, Card
 from benchmarks.drills.configured import configured
 from benchmarks.drills.hearing import Hearing
-from benchmarks.drills.judges import Judges, Violation
+from benchmarks.drills.judges import Judges
 from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, reconfigure
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
 from benchmarks.drills.sectors import Sectors

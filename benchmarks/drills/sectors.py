@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from benchmarks.drills.accusations import FORBIDDEN, Violation
 from benchmarks.drills.axis_case import AxisCase
-from benchmarks.drills.judges import FORBIDDEN, Violation
 from benchmarks.drills.world import AxisTruth
 from rotator.config.model import Config
 

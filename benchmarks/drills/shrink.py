@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from benchmarks.drills.judges import Violation
+from benchmarks.drills.accusations import Violation
 from benchmarks.drills.script import PANEL, Drill, Event
 
 AFTER_S = 0.2

@@ -11,8 +11,8 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from benchmarks.drills.accusations import LOOK_S, SILENCE, Violation
 from benchmarks.drills.axis_case import AxisCase
-from benchmarks.drills.judges import LOOK_S, SILENCE, Violation
 from benchmarks.drills.told import Rule, Shows, plain, rule
 from benchmarks.drills.world import AxisTruth
 from hw.ports import Axis

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 import benchmarks.drills
+from benchmarks.drills.accusations import TABLE, Violation
 from benchmarks.drills.campaign import run
-from benchmarks.drills.judges import TABLE, Violation
 from benchmarks.drills.script import Drill
 
 KNOWN = Path(benchmarks.drills.__file__).parent / "known" / "servo-kill.json"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from benchmarks.drills import judges
+from benchmarks.drills import accusations
 from benchmarks.drills.axis_case import AxisCase
 from benchmarks.drills.front_panel import STILL_S
 from benchmarks.drills.goals import Ranges
@@ -71,7 +71,7 @@ def test_a_right_move_is_no_violation() -> None:
 def test_both_directions_fed() -> None:
     mast = Mast()
     mast.azimuth.shorted_s = 0.001
-    assert mast.run(STEP_S) == [judges.BOTH_FED]
+    assert mast.run(STEP_S) == [accusations.BOTH_FED]
 
 
 def test_against_a_stop_once_for_two_seconds_in_all() -> None:
@@ -80,7 +80,7 @@ def test_against_a_stop_once_for_two_seconds_in_all() -> None:
     mast.order("rotctld", "jog", "cw")
     assert mast.run(1.5, coil=1) == []
     mast.run(5.0)
-    assert mast.run(1.5, coil=1) == [judges.BEYOND]
+    assert mast.run(1.5, coil=1) == [accusations.BEYOND]
 
 
 def test_a_contact_that_opens_a_moment_after_its_coil_does_not_end_the_sum_at_a_stop() -> None:
@@ -90,7 +90,7 @@ def test_a_contact_that_opens_a_moment_after_its_coil_does_not_end_the_sum_at_a_
     mast.run(1.5, coil=1)
     mast.run(STEP_S, coil=0, power=1)
     mast.run(5.0)
-    assert mast.run(1.5, coil=1) == [judges.BEYOND]
+    assert mast.run(1.5, coil=1) == [accusations.BEYOND]
 
 
 def test_a_press_of_an_axis_that_was_never_set_up_turns_it_two_seconds_in_all_also_when_it_begins_late() -> None:
@@ -98,7 +98,7 @@ def test_a_press_of_an_axis_that_was_never_set_up_turns_it_two_seconds_in_all_al
     mast.order("console", "jog", "cw", 5.0)
     mast.run(3.0)
     assert mast.run(2.3, coil=1) == []
-    assert mast.run(0.5, coil=1) == [judges.AFTER_STOP]
+    assert mast.run(0.5, coil=1) == [accusations.AFTER_STOP]
 
 
 def test_the_panels_jog_switch_is_let_go() -> None:
@@ -107,7 +107,7 @@ def test_the_panels_jog_switch_is_let_go() -> None:
     mast.run(2.0)
     mast.order("panel", "jog", "cw", 1.0)
     assert mast.run(1.3, coil=1) == []
-    assert mast.run(0.5, coil=1) == [judges.AFTER_STOP]
+    assert mast.run(0.5, coil=1) == [accusations.AFTER_STOP]
 
 
 def test_the_stop_button_stays_in_force_when_it_is_let_go() -> None:
@@ -117,7 +117,7 @@ def test_the_stop_button_stays_in_force_when_it_is_let_go() -> None:
     mast.run(1.0)
     mast.order("panel", "stop", "release")
     mast.order("rotctld", "aim", 200.0, 0.0)
-    assert mast.run(0.6, coil=1) == [judges.AFTER_STOP]
+    assert mast.run(0.6, coil=1) == [accusations.AFTER_STOP]
 
 
 def test_a_turn_of_the_mode_switch_releases_a_stop() -> None:
@@ -136,7 +136,7 @@ def test_a_turn_of_the_mode_switch_while_the_stop_button_is_pressed_releases_not
     mast.run(2.0)
     mast.order("panel", "stop", "release")
     mast.order("panel", "knob", "azimuth", 0.5)
-    assert mast.run(0.6, coil=1) == [judges.AFTER_STOP]
+    assert mast.run(0.6, coil=1) == [accusations.AFTER_STOP]
 
 
 def test_a_new_mode_ends_the_orders_before_it_and_none_after_it() -> None:
@@ -151,7 +151,7 @@ def test_a_new_mode_ends_the_orders_before_it_and_none_after_it() -> None:
 
 
 def test_a_knob_turned_just_before_a_mode_counts_may_be_seen_in_that_mode() -> None:
-    for before_s, found in ((0.1, []), (0.5, [judges.AFTER_STOP])):
+    for before_s, found in ((0.1, []), (0.5, [accusations.AFTER_STOP])):
         mast = Mast()
         mast.order("panel", "mode", "manual")
         mast.run(STILL_S - before_s)
@@ -192,7 +192,7 @@ def test_against_its_stop_again_and_again_though_no_person_has_let_it_go(ends: s
         else:
             mast.orders.forget_all(mast.now_s)
         mast.run(1.0)
-    assert judges.BEYOND in found
+    assert accusations.BEYOND in found
 
 
 def test_a_person_lets_it_go_against_its_stop_again() -> None:
@@ -212,14 +212,14 @@ def test_a_restart_of_the_program_is_no_new_beginning_of_tries() -> None:
         found += mast.run(1.0, coil=1, dps=0.0)
         mast.orders.forget_all(mast.now_s)
         mast.run(5.0)
-    assert found == [judges.STANDING_CURRENT]
+    assert found == [accusations.STANDING_CURRENT]
 
 
 def test_beyond_its_limits_before_the_stop() -> None:
     mast = Mast(at_deg=361.0)
     mast.azimuth.stop_high_deg = 400.0
     mast.order("rotctld", "jog", "cw")
-    assert mast.run(4.0, coil=1) == [judges.BEYOND]
+    assert mast.run(4.0, coil=1) == [accusations.BEYOND]
 
 
 @pytest.mark.parametrize("who", ["rotctld", "console"])
@@ -228,14 +228,14 @@ def test_driven_after_a_stop(who: str) -> None:
     mast.order("rotctld", "aim", 200.0, 0.0)
     mast.run(1.0, coil=1)
     mast.order(who, "stop")
-    assert mast.run(0.6, coil=1) == [judges.AFTER_STOP]
+    assert mast.run(0.6, coil=1) == [accusations.AFTER_STOP]
 
 
 def test_no_order_counts_while_a_person_holds_it() -> None:
     mast = Mast()
     mast.order("console", "stop")
     mast.order("rotctld", "aim", 200.0, 0.0)
-    assert mast.run(0.6, coil=1) == [judges.AFTER_STOP]
+    assert mast.run(0.6, coil=1) == [accusations.AFTER_STOP]
 
 
 def test_driven_longer_than_the_last_lease() -> None:
@@ -243,11 +243,11 @@ def test_driven_longer_than_the_last_lease() -> None:
     mast.order("rotctld", "aim", 200.0, 0.0)
     mast.judges.unattended_s = mast.now_s
     assert mast.run(0.9, coil=1) == []
-    assert mast.run(0.2, coil=1) == [judges.AFTER_STOP]
+    assert mast.run(0.2, coil=1) == [accusations.AFTER_STOP]
 
 
 def test_a_welded_relay_with_a_master_and_without() -> None:
-    assert Mast(master=True).run(2.5, coil=0, power=1) == [judges.AFTER_STOP]
+    assert Mast(master=True).run(2.5, coil=0, power=1) == [accusations.AFTER_STOP]
     assert Mast(master=False).run(60.0, coil=0, power=1) == []
 
 
@@ -255,7 +255,7 @@ def test_away_from_the_target() -> None:
     mast = Mast()
     mast.order("rotctld", "aim", 200.0, 0.0)
     mast.run(2.0, coil=-1)
-    assert mast.run(2.5, coil=-1) == [judges.AWAY]
+    assert mast.run(2.5, coil=-1) == [accusations.AWAY]
 
 
 def test_towards_the_other_turn_of_the_target_is_not_away() -> None:
@@ -264,7 +264,7 @@ def test_towards_the_other_turn_of_the_target_is_not_away() -> None:
     assert mast.run(10.0, coil=1) == []
 
 
-@pytest.mark.parametrize(("wavered", "found"), [(0, [judges.AWAY]), (1, [])])
+@pytest.mark.parametrize(("wavered", "found"), [(0, [accusations.AWAY]), (1, [])])
 def test_to_the_end_of_the_range_where_a_target_beyond_it_is_waited_for(wavered: int, found: list[str]) -> None:
     mast = Mast(at_deg=300.0)
     for azimuth_deg in (350.0, 20.0) * (1 + wavered):
@@ -276,11 +276,11 @@ def test_another_target_is_not_waited_for() -> None:
     mast = Mast(at_deg=300.0)
     for azimuth_deg in (350.0, 20.0, 350.0, 200.0):
         mast.order("rotctld", "aim", azimuth_deg, 0.0)
-    assert mast.run(4.0, coil=1) == [judges.AWAY]
+    assert mast.run(4.0, coil=1) == [accusations.AWAY]
 
 
 def test_driven_before_any_order() -> None:
-    assert Mast().run(0.6, coil=1) == [judges.NO_ORDER]
+    assert Mast().run(0.6, coil=1) == [accusations.NO_ORDER]
 
 
 def test_the_wind_turns_what_it_likes() -> None:
@@ -291,7 +291,7 @@ def test_current_in_a_motor_that_stands() -> None:
     mast = Mast()
     mast.order("rotctld", "aim", 200.0, 0.0)
     assert mast.run(2.0, coil=1, dps=0.0) == []
-    assert mast.run(0.3, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+    assert mast.run(0.3, coil=1, dps=0.0) == [accusations.STANDING_CURRENT]
 
 
 def test_an_order_after_a_stop_is_another_try_though_the_current_never_ends() -> None:
@@ -301,7 +301,7 @@ def test_an_order_after_a_stop_is_another_try_though_the_current_never_ends() ->
         assert mast.run(1.9, coil=1, dps=0.0) == []
         mast.order("rotctld", "stop")
     mast.order("rotctld", "aim", 200.0, 0.0)
-    assert mast.run(0.6, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+    assert mast.run(0.6, coil=1, dps=0.0) == [accusations.STANDING_CURRENT]
 
 
 def test_four_tries_in_ten_minutes() -> None:
@@ -310,7 +310,7 @@ def test_four_tries_in_ten_minutes() -> None:
     for _ in range(3):
         assert mast.run(1.0, coil=1, dps=0.0) == []
         mast.run(60.0)
-    assert mast.run(1.0, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+    assert mast.run(1.0, coil=1, dps=0.0) == [accusations.STANDING_CURRENT]
 
 
 def test_a_person_may_try_again() -> None:
@@ -333,7 +333,7 @@ def test_what_links_ordered_ends_when_no_stop_could_arrive_but_not_a_storm_park(
 
 
 def test_a_relay_that_welds_at_a_stop_in_a_calibration_is_left_to_the_person_who_watches() -> None:
-    for at_deg, found in ((362.0, []), (300.0, [judges.BOTH_FED])):
+    for at_deg, found in ((362.0, []), (300.0, [accusations.BOTH_FED])):
         mast = Mast(at_deg=at_deg, lacking="azimuth", master=True)
         mast.azimuth.welded, mast.azimuth.shorted_s = True, 0.001
         assert mast.run(STEP_S) == found
@@ -346,7 +346,7 @@ def test_presses_of_an_axis_that_was_never_set_up_count_each_for_itself() -> Non
         assert mast.run(1.9, coil=1, dps=0.0) == []
         mast.run(1.0)
     mast.order("console", "jog", "cw", 2.0)
-    assert mast.run(2.3, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+    assert mast.run(2.3, coil=1, dps=0.0) == [accusations.STANDING_CURRENT]
 
 
 def test_a_person_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again() -> None:
@@ -365,7 +365,7 @@ def test_limit_switches_show_the_ends_of_an_axis_that_was_never_set_up() -> None
     mast.run(2.0, coil=1)
     mast.run(1.0)
     mast.order("console", "jog", "cw", 2.0)
-    assert mast.run(1.0, coil=1) == [judges.BEYOND]
+    assert mast.run(1.0, coil=1) == [accusations.BEYOND]
 
 
 def test_a_limit_switch_shows_nothing_of_an_axis_that_stands_elsewhere() -> None:
@@ -380,7 +380,7 @@ def test_a_limit_switch_shows_nothing_of_an_axis_that_stands_elsewhere() -> None
 
 
 def test_opposite_relays_that_meet_at_a_stop_are_excused_only_by_a_weld() -> None:
-    for welded, found in ((True, []), (False, [judges.BOTH_FED])):
+    for welded, found in ((True, []), (False, [accusations.BOTH_FED])):
         mast = Mast(at_deg=362.0, lacking="azimuth")
         mast.azimuth.welded, mast.azimuth.shorted_s = welded, 0.1
         assert mast.run(STEP_S) == found
@@ -391,11 +391,11 @@ def test_a_welded_motor_has_its_time_again_when_its_supply_comes_back() -> None:
     for _ in range(3):
         assert mast.run(1.9, coil=0, power=1) == []
         mast.run(10.0)
-    assert mast.run(2.5, coil=0, power=1) == [judges.AFTER_STOP]
+    assert mast.run(2.5, coil=0, power=1) == [accusations.AFTER_STOP]
 
 
 def test_one_coordinate_alone_moves_both_axes_only_over_the_top() -> None:
-    for stands_deg, found in ((150.0, []), (60.0, [judges.NO_ORDER])):
+    for stands_deg, found in ((150.0, []), (60.0, [accusations.NO_ORDER])):
         mast = Mast()
         mast.elevation.shaft_deg = stands_deg
         mast.order("easycomm2", "aim-elevation", 26.0)
@@ -403,7 +403,7 @@ def test_one_coordinate_alone_moves_both_axes_only_over_the_top() -> None:
 
 
 def test_a_target_that_wavers_across_the_end_is_waited_for_there_after_its_first_swing() -> None:
-    for before_deg, found in (((), [judges.AWAY]), ((346.0, 5.0), []), ((200.0, 5.0), [judges.AWAY])):
+    for before_deg, found in (((), [accusations.AWAY]), ((346.0, 5.0), []), ((200.0, 5.0), [accusations.AWAY])):
         mast = Mast(at_deg=60.0)
         for azimuth_deg in (5.0, *before_deg, 346.0):
             mast.order("rotctld", "aim", azimuth_deg, 0.0)
@@ -434,7 +434,7 @@ def test_a_person_who_gives_an_angle_ends_an_aim_but_neither_a_storm_park_nor_a_
 
 
 def test_a_target_that_moves_across_the_end_is_followed_to_that_end_and_one_that_jumps_is_not() -> None:
-    for steps_deg, found in (([340.0, 345.0, 350.0, 355.0, 2.0], []), ([300.0, 20.0, 20.0], [judges.AWAY])):
+    for steps_deg, found in (([340.0, 345.0, 350.0, 355.0, 2.0], []), ([300.0, 20.0, 20.0], [accusations.AWAY])):
         mast = Mast(at_deg=200.0)
         for azimuth_deg in steps_deg:
             mast.order("rotctld", "aim", azimuth_deg, 0.0)
@@ -456,4 +456,4 @@ def test_what_holds_a_welded_axis_within_its_coast_cannot_be_told_from_a_coast(r
     mast.order("gs232b", "aim", 10.0, 0.0)
     mast.run(STEP_S, coil=-1, power=1, dps=0.0)
     mast.azimuth.shorted_s = 0.02
-    assert (judges.BOTH_FED in mast.run(STEP_S, coil=-1, power=0)) is not excused
+    assert (accusations.BOTH_FED in mast.run(STEP_S, coil=-1, power=0)) is not excused

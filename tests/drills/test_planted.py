@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.drills.judges import TABLE
+from benchmarks.drills.accusations import TABLE
 from benchmarks.drills.planted.patch import FOLDER, Bug, Misfit, bugs, parse, plant, take_back
 from benchmarks.drills.script import Drill
 

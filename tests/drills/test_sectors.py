@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from benchmarks.drills.accusations import FORBIDDEN
 from benchmarks.drills.axis_case import AxisCase
-from benchmarks.drills.judges import FORBIDDEN
 from benchmarks.drills.sectors import Sectors
 from benchmarks.drills.world import AxisTruth
 from rotator.config.load import parse

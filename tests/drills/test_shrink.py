@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from benchmarks.drills.judges import AWAY, Violation
+from benchmarks.drills.accusations import AWAY, Violation
 from benchmarks.drills.script import Drill, Event
 from benchmarks.drills.shrink import AFTER_S, Budget, shrink
 

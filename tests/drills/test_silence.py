@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
+from benchmarks.drills.accusations import SILENCE
 from benchmarks.drills.axis_case import AxisCase
-from benchmarks.drills.judges import SILENCE
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.world import AxisTruth
 from rotator.exchange.faults import Notice

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from benchmarks.drills.judges import TABLE
+from benchmarks.drills.accusations import TABLE
 from benchmarks.drills.planted.patch import FOLDER, Bug, plant
 from benchmarks.drills.script import Drill
 

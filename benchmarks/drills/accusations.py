@@ -1,0 +1,35 @@
+"""The lines of the table of what may never happen, as judges name them, and a find of a judge.
+
+Knows words. Judges nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+BOTH_FED = "both directions of a motor fed, welds included"
+BEYOND = "driven against a stop, or beyond the axis's limits"
+AFTER_STOP = "moving after the last S, STOP, SIGTERM or lease"
+AWAY = "moving away from the target under power"
+NO_ORDER = "moving with no order in force"
+FORBIDDEN = "inside a forbidden sector, coming from outside"
+STANDING_CURRENT = "current in a motor that does not turn"
+STARTS = "relay starts an hour under any bad sensor"
+SILENCE = "a fault that lasts without a message"
+TABLE = (BOTH_FED, BEYOND, AFTER_STOP, AWAY, NO_ORDER, FORBIDDEN, STANDING_CURRENT, STARTS, SILENCE)
+
+LOOK_S = 0.11
+"""A look comes every 0.05 s: a judge may see an event later by this."""
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """A find of a judge. `at_s`: seconds from the beginning of the drill; `measured`: in words for a person."""
+
+    at_s: float
+    judge: str
+    axis: str
+    measured: str
+
+    def __str__(self) -> str:
+        return f"{self.judge}: {self.axis}: {self.measured}, at {self.at_s:.2f} s"
