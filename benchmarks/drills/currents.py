@@ -114,7 +114,9 @@ class Currents:
         near_deg, here_deg = case.tolerance_deg + case.slack_deg, truth.shaft_deg + case.shift_deg
         goals = self._orders.axes[truth.name].goals.values()
         places_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
-        there = self.goes_round or any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
+        # A stop sends it to where it stands, whether or not its chip hears that.
+        stopped = case.deaf and not self._orders.holds(truth.name)
+        there = self.goes_round or stopped or any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
         return not truth.relayed and (there or abs(truth.sent_deg - truth.shaft_deg) < near_deg)
 
     def _accuse(self, judge: str, truth: AxisTruth, measured: str) -> None:
