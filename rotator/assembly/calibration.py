@@ -62,7 +62,10 @@ def calibration_controller(
     trusts: Mapping[Axis, Trusts] | None = None,
     latch: Latch | None = None,
 ) -> Controller:
-    """A controller that treats `axis` as never set up: it obeys jog only, 2 s a press. The others as there."""
+    """A controller that treats `axis` as never set up: it obeys jog only, 2 s a press.
+
+    The other arguments: as in `build_controller`.
+    """
     return build_controller(_without_limits(config, axis), learnt, commissioning=axis, trusts=trusts, latch=latch)
 
 

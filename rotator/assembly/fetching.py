@@ -52,7 +52,7 @@ def fetches_file(config: Config, at: Callable[[Path], Path] = Path) -> FetchesFi
 
 
 def build_elements_server(config: Config, known: Callable[[], Sequence[Elements] | None]) -> ElementsServer | None:
-    """None where the file names no `[sky] serve`. `known`: as there."""
+    """None where the file names no `[sky] serve`. `known` gives the elements; None: no file has been read yet."""
     if config.sky.serve is None:
         return None
     from rotator.links.elements import ElementsServer  # noqa: PLC0415 - slow to load, and seldom needed

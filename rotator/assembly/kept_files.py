@@ -32,9 +32,9 @@ def build_relays_file(config: Config, memory: Path | None = None) -> RelaysFile 
 
 
 def build_tries_file(config: Config, memory: Path | None = None) -> TriesFile | None:
-    """The file of what motors were tried for in vain; None where the rotor does not outlive the program.
+    """The file of vain tries and of the stops that were met; None where the rotor does not outlive the program.
 
-    Of a stop that was met with another calibration, offset or limit it knows nothing any more.
+    A stop that was met with another calibration, offset or limit is forgotten.
     """
     if not config.keeps_files:
         return None

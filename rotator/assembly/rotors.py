@@ -20,8 +20,8 @@ from rotator.rotors.counts_writer import Later, at_once
 
 
 class Assembly:
-    """`in_step`: time is simulated. `counts`: the file for counted axes; None: there is none. `write`: runs what writes
-    it, where time is simulated.
+    """`in_step`: time is simulated. `counts`: the file for counted axes; None: there is none. `write`: where
+    time is simulated, it calls the functions that write that file.
 
     `start_deg`: where a simulated axis stands at first, on the rotor's own scale. `watch`: what opens the relays when
     the program no longer renews their leases. Raises HardwareError.

@@ -42,9 +42,9 @@ def session_maker(
 ) -> Session:
     """A new conversation in the link's protocol.
 
-    `remark` takes texts for the log that are worth saying once: what is asked and not supported; `notice` those on what
-    has happened; `refused` why a protocol itself refuses an order: it is out of range. `sky`: None where the
-    configuration does not say where the station is.
+    `remark` takes a text for the log, to be logged once: a request that the box does not support. `notice` takes one
+    about an event, `refused` the reason why the protocol itself refuses an order: it is out of range. `sky`: None where
+    the configuration does not say where the station is.
     """
     match link.protocol:
         case "gs232a" | "gs232b":

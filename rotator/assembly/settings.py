@@ -69,8 +69,8 @@ def build_controller(
     latch: Latch | None = None,
     panel: bool = False,
 ) -> Controller:
-    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays; `tries`: what
-    it tried its motors for in vain; `latch`: the stop that was latched when it ended.
+    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays; `tries`:
+    the vain tries of its motors; `latch`: the stop that was latched when it ended.
 
     `commissioning`: an axis to be treated as never set up. `attended`: a person sets it up, and watches the antenna.
 

@@ -24,7 +24,8 @@ from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.model import Config
 
 LIMIT_BEYOND_DEG = 1.0
-"""A limit switch opens between the end of the range and the stop; a low one of an axis that counts above `home_deg`."""
+"""Degrees beyond the end of the range: there a limit switch opens, before the stop. The low one of an axis that counts
+opens this far above `home_deg`."""
 AUTO = 2
 """The position AUTO of the simulated mode switch: 2 × MSB + LSB."""
 

@@ -52,8 +52,8 @@ class Station:
     `add_alarm`: that of the simulated clock, where time is simulated; the rotor has begun then. In real time the
     caller starts the rotor. `counts`: the file that keeps counted axes; None: they begin where the simulated rotor is.
     `world`: a simulated rotor that has outlived an earlier station, and goes on; None: it is made from the file.
-    `watch`: hears the leases of the relays in place of a sentinel, where time is simulated; `write` runs what writes
-    `counts` there.
+    `watch` and `write`: where time is simulated, `watch` hears the leases of the relays in place of a sentinel, and
+    `write` calls the functions that write `counts`.
     """
 
     rotor: Rotor

@@ -47,7 +47,7 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     reader, planner, box = FileReader(), ProcessPlanner(), TrackedBox(config, loop, mount)
     sky = KnownSky(build_site(config.station), build_later_catalogue(config, reader.read))
     clock, simulated = SystemClock(), config.rotor.hardware == "sim"
-    # A simulated rotor may live at any time.
+    # A simulated rotor needs no right clock: it may track the sky of any moment.
     tracker = Tracker(
         sky, planner, box, lambda: simulated or clock.is_set, why_no_plan=lambda: why_no_plan(config.sky, sky)
     )
@@ -85,7 +85,7 @@ def wanted_often(
 ) -> tuple[tuple[WantedOften, ...], list[str]]:
     """What `[[sky.follow]]` names, and a sentence for each table whose target is not known or has no passes.
 
-    `priority`: from what a table is called and says to the priority in force.
+    `priority` gives the priority in force, for the name of a target and its priority in the file.
     """
     found: dict[str, WantedOften] = {}
     faults = []
@@ -121,7 +121,7 @@ def wanted_names(table: SkyTable, sky: KnownSky, priority: Callable[[str, float]
 
 
 def build_antenna(config: Config, stands_deg: Place | None = None) -> Antenna:
-    """As a plan sees it: at the park position, unless told where it stands."""
+    """As a plan sees it. `stands_deg` None: at the park position."""
     mount = build_mount(config)
     azimuth, elevation = planned_motors(config)
     return Antenna(mount, azimuth, elevation, stands_deg or (mount.park_azimuth_deg, mount.park_elevation_deg))

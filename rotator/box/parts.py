@@ -182,6 +182,6 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
 
 
 def _calibration_of(config: Config, axis: Axis, path: Path) -> PageCalibration:
-    from rotator.calibrating.on_page import PageCalibration  # noqa: PLC0415 - a start as ever does without its guides
+    from rotator.calibrating.on_page import PageCalibration  # noqa: PLC0415 - a normal start does without its guides
 
     return PageCalibration(config, axis, path, time.monotonic)

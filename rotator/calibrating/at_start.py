@@ -56,7 +56,7 @@ class CompassAtStart:
     def see(self, reading: CompassReading, status: Status) -> Confirm | None:
         """Take a reading of the standing antenna. Returns the order, once the readings are enough.
 
-        A person may have confirmed the angle while the compass was read: then it is asked no more.
+        A person may have confirmed the angle meanwhile: then the compass is asked no more.
         """
         if not self.wanted(status):
             return None

@@ -1,7 +1,8 @@
 """The cross that a boom scans about its target: its places, in order, and which of them the antenna can go to.
 
-Each arm is scanned there and back: play in the gears, and a signal that grows meanwhile, shift the one way as they
-shift the other back. Knows the sphere and the mount. Knows no time and no receiver.
+Each arm is scanned there and back. Play in the gears, and a signal that grows meanwhile, shift the peak of one way as
+far as that of the other, in the opposite direction: their mean is right. Knows the sphere and the mount. Knows no time
+and no receiver.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ LEAST_PLACES = 4
 
 @dataclass(frozen=True, slots=True)
 class Cross:
-    """About the place where the target would seem to be `centre` beside the boom."""
+    """`centre`: the middle of the cross. `reach`: how far each arm goes to each side, in beams; `count`: its places."""
 
     centre: Beside
     beam_deg: float
@@ -67,7 +68,7 @@ def boom_direction(target: Beside, beside: Beside) -> tuple[float, float]:
 
 
 def within_reach(mount: Mount, direction_deg: tuple[float, float], stands_deg: float, beam_deg: float) -> bool:
-    """Whether the boom comes to this direction: range, horizon and sectors leave it free."""
+    """Whether the boom can go to this direction: range, horizon and sectors leave it free."""
     try:
         azimuth_deg, elevation_deg = mount.axis_angles(*direction_deg, stands_deg)
     except Unreachable:
@@ -90,5 +91,5 @@ def at_edge(heard: Sequence[Heard], middle: Beside, beam_deg: float) -> bool:
 
 
 def nearby(heard: Sequence[Heard], middle: Beside, beam_deg: float) -> list[Heard]:
-    """What was heard in the main lobe: beyond it a real beam is no bell."""
+    """What was heard in the main lobe: beyond it a real beam has no bell shape."""
     return [each for each in heard if math.dist((each.right_deg, each.above_deg), middle) <= LOBE * beam_deg]

@@ -30,7 +30,7 @@ MOST_LINES = 400
 
 
 class PageCalibration:
-    """`path`: the file in which the result is saved. Raises HardwareError where the axis cannot be calibrated so."""
+    """`path`: the file for the result. Raises HardwareError where this axis cannot be calibrated on the page."""
 
     def __init__(self, config: Config, axis: Axis, path: Path, clock: Callable[[], float]) -> None:
         self.axis = axis

@@ -1,6 +1,6 @@
-"""Fetches the elements that the configuration names addresses of, each when it is due, and keeps what came of it.
+"""Fetches elements from the addresses in the configuration, each when it is due, and keeps the result of each request.
 
-Knows the record of earlier questions, which is written before a question is asked: a box that dies in the middle, or
+Knows the record of earlier requests, which is written before a request is sent: a box that dies in the middle, or
 cannot write, does not ask twice. Does not know threads. Moments are arguments.
 """
 

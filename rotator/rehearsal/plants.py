@@ -50,7 +50,7 @@ class Plant(Protocol):
     """How long before the pass the rehearsal begins."""
 
     def begin(self, flown: Pass, begin_s: float) -> None:
-        """Let it hear of the pass, which begins at `begin_s`: of all of it now, or by an order a second."""
+        """Give it the pass, which begins at `begin_s`: the whole pass now, or from now on an order each second."""
 
     def run_until(self, moment_s: float) -> None: ...
 

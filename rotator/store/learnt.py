@@ -47,7 +47,7 @@ def decode(text: str) -> dict[Axis, Motors]:
 class LearntFile:
     """Call `load` first, then `note`, then `save` now and then. Failures go to the log, and nothing is raised.
 
-    `begun`: the present settings of each motor.
+    `begun`: the settings of each motor with which this run has begun.
     """
 
     def __init__(self, path: Path, begun: Mapping[Axis, MotorSettings]) -> None:

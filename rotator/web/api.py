@@ -39,7 +39,7 @@ Group = Callable[[Entrance], Sequence[Route]]
 
 
 @dataclass(frozen=True, slots=True)
-class Behind:
+class PageParts:
     """The parts behind the page. `client` gives the box as a source sees it. `reading_open`: read without pairing."""
 
     status: Callable[[], Status]
@@ -62,10 +62,10 @@ class Behind:
 
 
 class Api:
-    def __init__(self, behind: Behind, live: Live, connections: Connections) -> None:
-        self._behind = behind
+    def __init__(self, parts: PageParts, live: Live, connections: Connections) -> None:
+        self._parts = parts
         self._live = live
-        self._entrance = Entrance(behind.doors, behind.pairings, connections, reading_open=behind.reading_open)
+        self._entrance = Entrance(parts.doors, parts.pairings, connections, reading_open=parts.reading_open)
         self._assets = assets.load()
         self._operating: dict[int, Operating] = {}
         """One for each number of a paired browser; 0: all browsers without pairing, which may only stop."""
@@ -73,9 +73,9 @@ class Api:
     def application(self) -> web.Application:
         routes = [
             *self._reads(),
-            *PairingApi(self._entrance, self._behind.pairings, self._behind.utc).routes(),
+            *PairingApi(self._entrance, self._parts.pairings, self._parts.utc).routes(),
             *(openapi.order(each, self._order(each)) for each in METHODS),
-            *(route for group in self._behind.groups for route in group(self._entrance)),
+            *(route for group in self._parts.groups for route in group(self._entrance)),
         ]
 
         async def describe(_request: web.Request) -> web.StreamResponse:
@@ -96,7 +96,7 @@ class Api:
     # --- what is read
 
     def _reads(self) -> Sequence[Route]:
-        behind = self._behind
+        parts = self._parts
         status = "The status, as `rotator where --json` prints it", component("status")
         station = "What does not change while the box runs: ranges, beam, horizon, sectors", scene_schema.BOX
         past = "The last ten minutes, a row each second; null: there was none", scene_schema.PAST
@@ -104,10 +104,10 @@ class Api:
         log = "The latest lines of the log, the latest first", scene_schema.LOG
         pictures = "A WebSocket: ten pictures of the box a second, STOP, and a button that is held", MESSAGES
         return (
-            get("/api/status", self._read(lambda: as_object(behind.status())), status),
-            get("/api/box", self._read(lambda: box(behind.station, behind.status())), station),
-            get("/api/past", self._read(behind.scene.past.rows), past),
-            get("/api/path", self._read(behind.scene.path), path),
+            get("/api/status", self._read(lambda: as_object(parts.status())), status),
+            get("/api/box", self._read(lambda: box(parts.station, parts.status())), station),
+            get("/api/past", self._read(parts.scene.past.rows), past),
+            get("/api/path", self._read(parts.scene.path), path),
             get("/api/log", self._log, log, access=PAIRED),
             live("/api/live", self._serve_live, pictures, access=READING, query={}, more={}),
         )
@@ -122,10 +122,8 @@ class Api:
     async def _log(self, request: web.Request) -> web.StreamResponse:
         # The answer names people's browsers and machines.
         self._entrance.must_be_paired(request)
-        said = self._behind.scene.said
-        return web.json_response(
-            {"lines": [{**line, "text": said(line["text"])} for line in self._behind.lines.told()]}
-        )
+        said = self._parts.scene.said
+        return web.json_response({"lines": [{**line, "text": said(line["text"])} for line in self._parts.lines.told()]})
 
     async def _serve_live(self, request: web.Request) -> web.StreamResponse:
         self._entrance.may_read(request)
@@ -136,7 +134,7 @@ class Api:
         holding = None if who is None else Holding(self._live.pictures, self._jogging(request))
         await self._live.serve(
             socket,
-            hello(who) | {"box": box(self._behind.station, self._behind.status())},
+            hello(who) | {"box": box(self._parts.station, self._parts.status())},
             holding,
             lambda: self._is_still(who, request),
             stop=lambda: self._as(self._entrance.who(request)).do(Stop(latch=True)),
@@ -153,7 +151,7 @@ class Api:
         def order(jog: Jog) -> str:
             # Ask at each sign: its pairing may have been revoked.
             who = self._entrance.who(request)
-            return self._behind.scene.said(self._as(who).do(jog)) if who else "this browser is paired no more"
+            return self._parts.scene.said(self._as(who).do(jog)) if who else "this browser is paired no more"
 
         return order
 
@@ -187,18 +185,18 @@ class Api:
             if isinstance(command, Release) and self._has_stopped_since(request):
                 return error(412, "it has been stopped again meanwhile: look at it, and press once more")
             refused = self._as(who).do(command)
-            return error(409, self._behind.scene.said(refused)) if refused else web.json_response({"ok": True})
+            return error(409, self._parts.scene.said(refused)) if refused else web.json_response({"ok": True})
 
         return answer
 
     def _has_stopped_since(self, request: web.Request) -> bool:
         """Whether a stop has overtaken this request: its `If-Match` names the stops that its sender has seen."""
         seen = request.headers.get("If-Match")
-        return seen is not None and seen != f'"{self._behind.scene.stops}"'
+        return seen is not None and seen != f'"{self._parts.scene.stops}"'
 
     def _as(self, who: Paired | None) -> Operating:
         number = who.number if who else 0
         if number not in self._operating:
             source = source_of(who)
-            self._operating[number] = Operating(self._behind.client(source), self._behind.tracking, source)
+            self._operating[number] = Operating(self._parts.client(source), self._parts.tracking, source)
         return self._operating[number]

@@ -42,7 +42,7 @@ from rotator.web.wires import WireLog
 
 if TYPE_CHECKING:
     from rotator.calibrating.on_page import PageCalibration
-    from rotator.web.api import Behind
+    from rotator.web.api import PageParts
 
 log = logging.getLogger(__name__)
 
@@ -96,9 +96,9 @@ def build_page(
 
     pairings.on_gone = give_back_for
 
-    def behind() -> Behind:
+    def parts() -> PageParts:
         # Slow to load; this function runs in the page's thread.
-        from rotator.web.api import Behind  # noqa: PLC0415
+        from rotator.web.api import PageParts  # noqa: PLC0415
         from rotator.web.box_file import BoxFile  # noqa: PLC0415
         from rotator.web.elements import ElementFiles  # noqa: PLC0415
         from rotator.web.flown import FlownPictures  # noqa: PLC0415
@@ -126,7 +126,7 @@ def build_page(
         elements = ElementFiles(tracking.sky, uploads, fetches, config.sky.fetch, changed=read_again, utc=time.time)
         kept = FlownPasses(Path(config.state.path).parent)
         flown = FlownPictures(kept, recorder, mount, lambda: loop.status, time.time)
-        return Behind(
+        return PageParts(
             status=lambda: loop.status,
             client=lambda source: Client(loop, mount, source),
             tracking=tracking.tracker,
@@ -156,4 +156,4 @@ def build_page(
 
     rivals = (counted("link", at) for at, each in enumerate(config.link) if each.tcp and address(each.tcp)[1] == port)
     events = events or EventWatch(clock)
-    return PageThread(host, port, behind, (lines, wire_log), clock, events=events, rival=next(rivals, ""))
+    return PageThread(host, port, parts, (lines, wire_log), clock, events=events, rival=next(rivals, ""))

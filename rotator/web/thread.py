@@ -22,7 +22,7 @@ from rotator.web.connections import Connection, Connections
 from rotator.web.logs import http_logger
 
 if TYPE_CHECKING:
-    from rotator.web.api import Behind
+    from rotator.web.api import PageParts
     from rotator.web.pairing import Pairings
 
 log = logging.getLogger(__name__)
@@ -46,13 +46,13 @@ class Kept(Protocol):
 
 
 class PageThread:
-    """`behind` is called in the thread, because its modules are slow to load. `clock` gives seconds."""
+    """`build` is called in the thread, because its modules are slow to load. `clock` gives seconds."""
 
     def __init__(
         self,
         host: str,
         port: int,
-        behind: Callable[[], Behind],
+        build: Callable[[], PageParts],
         kept: Sequence[Kept],
         clock: Callable[[], float],
         *,
@@ -64,7 +64,7 @@ class PageThread:
         `rival`: what else of the configuration listens at this port; empty: nothing.
         """
         self._host, self._port, self._rival = host, port, rival
-        self._behind = behind
+        self._build = build
         self._clock = clock
         self._kept = kept
         self._events = events
@@ -132,11 +132,11 @@ class PageThread:
         from rotator.web.api import Api  # noqa: PLC0415
         from rotator.web.live import Live  # noqa: PLC0415
 
-        behind = self._behind()
-        connections = Connections(behind.doors.lets_in, self._clock)
-        live = Live(behind.scene.now, behind.scene.past.note, self._clock)
+        parts = self._build()
+        connections = Connections(parts.doors.lets_in, self._clock)
+        live = Live(parts.scene.now, parts.scene.past.note, self._clock)
         runner = web.AppRunner(
-            Api(behind, live, connections).application(),
+            Api(parts, live, connections).application(),
             access_log=None,
             logger=http_logger(http_exceptions.HttpProcessingError),
             handle_signals=False,
@@ -155,9 +155,9 @@ class PageThread:
         works = [
             connections.watch(),
             live.run(),
-            _keep(behind.pairings),
+            _keep(parts.pairings),
             self._events.run(),
-            *(each() for each in behind.works),
+            *(each() for each in parts.works),
         ]
         tasks: list[asyncio.Task[Any]] = [asyncio.create_task(work, name="page") for work in works]
         try:
@@ -171,13 +171,13 @@ class PageThread:
         finally:
             listening.close()
             connections.drop_all()
-            for close in behind.closes:
+            for close in parts.closes:
                 await close()
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
             await runner.cleanup()
-            await asyncio.to_thread(behind.pairings.keep)
+            await asyncio.to_thread(parts.pairings.keep)
 
 
 async def _keep(pairings: Pairings) -> None:
