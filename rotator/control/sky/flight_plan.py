@@ -16,6 +16,7 @@ from rotator.control.sky.known_path import KnownPath, Row
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.route import STEP_S, Speeds, Way
 from rotator.control.sky.steps import Trail, best_steps
+from rotator.control.sky.turn_timing import Change, change_of
 from rotator.control.sky.turning import lifted_between_deg
 from rotator.control.sky.way_goals import LEAST_WEIGHT
 from rotator.control.sky.ways import Leg, Route, best_route
@@ -65,7 +66,7 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
         mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds, begin_on=begin_on
     )
     directions = path.directions(begin_s, PLAN_STEP_S)
-    azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs, azimuth)
+    azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs, azimuth, speeds)
     up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]
     flat = [
         max(LEAST_WEIGHT, math.cos(math.radians(direction[1]))) ** 2 * weight
@@ -121,14 +122,19 @@ def _steps(trail: Trail, motor: PlannedMotor, now_s: float) -> tuple[Step, ...]:
 
 
 def _axis_angles(
-    mount: Mount, directions: Sequence[tuple[float, float]], legs: Sequence[Leg], azimuth: PlannedMotor
+    mount: Mount,
+    directions: Sequence[tuple[float, float]],
+    legs: Sequence[Leg],
+    azimuth: PlannedMotor,
+    speeds: Speeds,
 ) -> tuple[list[float], list[float]]:
     """Every `PLAN_STEP_S`, on the way that is in force at each moment.
 
     Elevation within its limits, azimuth beyond them by its tolerance at most: so a step to where the target leaves the
     range has its place at the limit itself.
     """
-    begins = [_begin(leg, stepped=azimuth.switched) for leg in legs]
+    changes = [change_of(mount, directions, pair, speeds, stepped=azimuth.switched) for pair in pairwise(legs)]
+    begins = [0, *(_begin(change, stepped=azimuth.switched) for change in changes)]
     low_deg, high_deg = mount.azimuth.min_deg - azimuth.tolerance_deg, mount.azimuth.max_deg + azimuth.tolerance_deg
     azimuths_deg, elevations_deg = [], []
     for leg, begin, end in zip(legs, begins, [*begins[1:], len(directions)], strict=True):
@@ -140,39 +146,26 @@ def _axis_angles(
                 continue
             azimuths_deg.append(min(max(azimuth_deg, low_deg), high_deg))
             elevations_deg.append(mount.clear_deg(mount.azimuth.nearest(azimuth_deg), elevation_deg))
-    for before, leg in pairwise(legs):
-        _lift(mount, directions, (before, leg), azimuth, elevations_deg)
+    for change in changes:
+        _lift(mount, directions, change, elevations_deg)
     return azimuths_deg, elevations_deg
 
 
-def _lift(
-    mount: Mount,
-    directions: Sequence[tuple[float, float]],
-    legs: tuple[Leg, Leg],
-    azimuth: PlannedMotor,
-    elevations_deg: list[float],
-) -> None:
+def _lift(mount: Mount, directions: Sequence[tuple[float, float]], change: Change, elevations_deg: list[float]) -> None:
     """While azimuth turns from one leg to the next, elevation goes where the antenna points nearest to the target."""
-    before, leg = legs
-    from_deg, there_deg = before.flown.place(leg.look), leg.flown.place(min(leg.arrival, len(leg.flown.errors_deg) - 1))
-    travel_s = abs(there_deg[0] - from_deg[0]) / azimuth.speed_dps
-    if travel_s == 0.0:  # both legs wait at the same limit
+    if change.turns_s == 0.0:  # both legs wait at the same limit
         return
-    spare_s = (leg.arrival - leg.look) * STEP_S - travel_s
-    begin_s = leg.look * STEP_S + (spare_s / 2 if azimuth.switched else 0.0)
-    for moment in range(math.floor(begin_s / PLAN_STEP_S), math.ceil((begin_s + travel_s) / PLAN_STEP_S) + 1):
-        if moment >= len(directions):
-            return
-        share = min(max((moment * PLAN_STEP_S - begin_s) / travel_s, 0.0), 1.0)
+    from_deg, there_deg = change.from_deg, change.there_deg
+    begin, end = change.leaves_s / PLAN_STEP_S, (change.leaves_s + change.turns_s) / PLAN_STEP_S
+    for moment in range(math.floor(begin), min(math.ceil(end) + 1, len(directions))):
+        share = min(max((moment - begin) / (end - begin), 0.0), 1.0)
         axis_azimuth_deg = from_deg[0] + share * (there_deg[0] - from_deg[0])
         lifted_deg = lifted_between_deg(axis_azimuth_deg, directions[moment], (from_deg[1], there_deg[1]))
         if lifted_deg is not None:
             elevations_deg[moment] = mount.clear_deg(axis_azimuth_deg, lifted_deg)
 
 
-def _begin(leg: Leg, *, stepped: bool) -> int:
-    """The moment at which the angles change to this way. A step is made around the moment of its jump: half of the turn
-    is before it."""
-    if not leg.look:
-        return 0
-    return round((leg.look + (leg.arrival - leg.look) / 2 * stepped) * STEP_S / PLAN_STEP_S)
+def _begin(change: Change, *, stepped: bool) -> int:
+    """The moment at which the angles change to the new way. A step is made around the moment of its jump: half of the
+    turn is before it."""
+    return round((change.leaves_s + change.turns_s / 2 * stepped) / PLAN_STEP_S)

@@ -54,7 +54,7 @@ class Turning:
             axis_azimuth_deg, _ = self.after(from_deg, there, (number - look + 0.5) * STEP_S)
             lifted = lifted_between_deg(axis_azimuth_deg, self._directions[number], (from_deg[1], there[1]))
             aim_deg = there[1] if lifted is None else self._elevation.nearest(lifted)
-            stands_deg = _turned_deg(stands_deg, aim_deg, self._speeds.elevation_dps * past_s)
+            stands_deg = turned_deg(stands_deg, aim_deg, self._speeds.elevation_dps * past_s)
             past_s = STEP_S
             if self._seen[number]:
                 off_deg = great_circle_deg(axis_azimuth_deg, stands_deg, azimuth_deg, max(0.0, elevation_deg))
@@ -71,8 +71,8 @@ class Turning:
     def after(self, from_deg: Place, to_deg: Place, seconds: float) -> Place:
         """Where both axes are after this time."""
         return (
-            _turned_deg(from_deg[0], to_deg[0], self._speeds.azimuth_dps * seconds),
-            _turned_deg(from_deg[1], to_deg[1], self._speeds.elevation_dps * seconds),
+            turned_deg(from_deg[0], to_deg[0], self._speeds.azimuth_dps * seconds),
+            turned_deg(from_deg[1], to_deg[1], self._speeds.elevation_dps * seconds),
         )
 
 
@@ -87,5 +87,6 @@ def lifted_between_deg(axis_azimuth_deg: float, target: Direction, between_deg: 
     return lifted_deg(azimuth_deg - axis_azimuth_deg, elevation_deg)
 
 
-def _turned_deg(from_deg: float, to_deg: float, by_deg: float) -> float:
+def turned_deg(from_deg: float, to_deg: float, by_deg: float) -> float:
+    """Where a motor is that may turn so far towards its goal."""
     return from_deg + max(-by_deg, min(by_deg, to_deg - from_deg))

@@ -63,7 +63,7 @@ def best_route(
     changes: list[list[tuple[int, int] | None]] = [[None] * len(directions) for _ in ways]
     for look in reversed(range(len(directions))):
         for index, way in enumerate(ways):
-            cost_s = _cost_s(way.errors_deg[look]) + cheapest[index][look + 1]
+            cost_s = error_cost_s(way.errors_deg[look]) + cheapest[index][look + 1]
             for other, there in enumerate(ways):
                 if other == index or cost_s <= CHANGE_S:
                     continue
@@ -71,7 +71,7 @@ def best_route(
                 then_s = CHANGE_S + cheapest[other][arrival]
                 if then_s >= cost_s or not there.holds(arrival):
                     continue
-                then_s += sum(map(_cost_s, turning.errors_deg(way.place(look), there, look, arrival)))
+                then_s += sum(map(error_cost_s, turning.errors_deg(way.place(look), there, look, arrival)))
                 if then_s < cost_s:
                     cost_s, changes[index][look] = then_s, (other, arrival)
             cheapest[index][look] = cost_s
@@ -104,11 +104,12 @@ class _Beginning:
         self.look = turning.arrival(begins_deg, way, 0, left=0)
         """The look at which the antenna is on the way."""
         self.errors_deg = turning.errors_deg(begins_deg, way, 0, self.look)
-        cost_s = sum(map(_cost_s, self.errors_deg)) + rest[self.look]
+        cost_s = sum(map(error_cost_s, self.errors_deg)) + rest[self.look]
         self.cost = float(round(cost_s / EVEN_S)), turning.travel_s(from_deg, waits_deg)
 
 
-def _cost_s(error_deg: float) -> float:
+def error_cost_s(error_deg: float) -> float:
+    """The cost of this error for the time of a look."""
     share = 1.0 if error_deg > LOST_DEG else NEARLY_LOST * (error_deg / LOST_DEG) ** 2
     return STEP_S * (share + error_deg / FAR_DEG)
 
