@@ -18,6 +18,9 @@ NAMES = {axis: axis.value for axis in Axis}
 """What the journal calls the sensor of each axis."""
 SENSORS_THREAD = "sensors"
 """The name of the thread."""
+LONGEST_READ_S = 0.2
+SLOW = f"a reading took more than {LONGEST_READ_S:g} s"
+"""Such a reading may be of any moment since it began: the bus hung, or the computer stood still meanwhile."""
 JOIN_S = 1.0
 """How long the end waits for the thread, in seconds."""
 FIRST_S = 3.0
@@ -93,10 +96,14 @@ class SensorThread:
             self._on_round()
 
     def _read(self, axis: Axis, sensor: AngleSensor) -> Reading:
+        begun_s = self._clock()
+        raw, trouble = None, ""
         try:
             raw = sensor.read()
         except HardwareError as fault:
-            self._journal.note(NAMES[axis], str(fault))
-            return Reading(self._clock(), None, str(fault), self._rotor.condition(axis))
-        self._journal.note(NAMES[axis], "")
-        return Reading(self._clock(), raw, condition=self._rotor.condition(axis))
+            trouble = str(fault)
+        now_s = self._clock()
+        if not trouble and now_s - begun_s > LONGEST_READ_S:
+            raw, trouble = None, SLOW
+        self._journal.note(NAMES[axis], trouble)
+        return Reading(now_s, raw, trouble, self._rotor.condition(axis))

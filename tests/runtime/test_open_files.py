@@ -10,6 +10,7 @@ import socket
 import subprocess
 import sys
 import time
+import urllib.request
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -51,6 +52,9 @@ def test_a_crowd_larger_than_the_limit_fills_no_log_and_keeps_no_client_from_a_s
         assert greets(box.stdout)
         program = crowd.enter_context(socket.create_connection(("127.0.0.1", link), PATIENCE_S))
         assert ask(program, b"P 300 80\n") == b"RPRT 0\n"
+        # The page loads its modules, which are files too, behind its open port.
+        with urllib.request.urlopen(f"http://127.0.0.1:{page}/api/me", timeout=PATIENCE_S) as loaded:
+            assert loaded.status == 200
         for _ in range(MANY):
             crowd.enter_context(
                 socket.create_connection(("127.0.0.1", link if crowded == "link" else page), PATIENCE_S)

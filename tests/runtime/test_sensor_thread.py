@@ -10,15 +10,16 @@ from collections.abc import Iterator
 import pytest
 
 from firmware_sim.clock import SimClock
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.kinds import KINDS, KindName
 from rotator.config.model import Config
 from rotator.exchange.orders import Jog, Release
 from rotator.exchange.sources import Source
+from rotator.runtime.journal import Journal
 from rotator.runtime.loop import ControlLoop
-from rotator.runtime.sensor_thread import FIRST_S, NEVER_READ
+from rotator.runtime.sensor_thread import FIRST_S, LONGEST_READ_S, NEVER_READ, SLOW, SensorThread
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PERIOD_S = 0.05
@@ -92,3 +93,21 @@ def test_a_bus_that_answers_late_is_no_fault_and_one_that_comes_back_may_be_used
         rig.loop.post(CONSOLE, Release())
     rig.run(1.0)
     assert rig.told() == set()
+
+
+@pytest.mark.parametrize(("takes_s", "is_good"), [(0.01, True), (LONGEST_READ_S, True), (LONGEST_READ_S + 0.01, False)])
+def test_a_reading_that_took_too_long_may_be_an_old_one_and_is_none(takes_s: float, is_good: bool) -> None:
+    rig = Rig("relay-pot")
+    sensors = SensorThread(rig.station.rotor, rig.clock, PERIOD_S, Journal(rig.clock), lambda: None)
+
+    class Slow:
+        source = AngleSource.MEASURED
+
+        def read(self) -> float:
+            rig.clock.sleep(takes_s)
+            return 0.5
+
+    reading = sensors._read(AZ, Slow())
+    assert (reading.raw == 0.5, reading.problem == SLOW) == (is_good, not is_good)
+    assert reading.at_s == rig.clock()
+    rig.station.close()

@@ -28,16 +28,20 @@ TRUE = {FaultKind.CONTROL_LATE, FaultKind.SENSOR_LATE}
 
 
 class StallingClock:
-    """Gives the time of `clock`. At call number `at` the program stands still for `stall_s` after it has the time."""
+    """Gives the time of `clock`. At call number `at` the program stands still for `stall_s`: `before` or after it has
+    the time."""
 
     def __init__(self, clock: SimClock) -> None:
         self._clock = clock
-        self.calls, self.at, self.stall_s = 0, 0, 0.0
+        self.calls, self.at, self.stall_s, self.before = 0, 0, 0.0, False
 
     def __call__(self) -> float:
-        now_s = self._clock()
         self.calls += 1
-        if self.calls == self.at:
+        stands = self.calls == self.at
+        if stands and self.before:
+            self._clock.sleep(self.stall_s)
+        now_s = self._clock()
+        if stands and not self.before:
             self._clock.sleep(self.stall_s)
         return now_s
 
@@ -67,9 +71,12 @@ class Stalled:
         return {axis.fault.kind for axis in axes if axis.fault is not None}
 
 
+@pytest.mark.parametrize("before", [True, False], ids=["before a look", "after it"])
 @pytest.mark.parametrize("runs_s", [0.3, 1.5, 4.0])
 @pytest.mark.parametrize("stall_s", [0.2, 0.45, 0.7, 1.2, 3.0])
-def test_wherever_it_stands_still_it_says_no_more_than_that_it_was_late(stall_s: float, runs_s: float) -> None:
+def test_wherever_it_stands_still_it_says_no_more_than_that_it_was_late(
+    stall_s: float, runs_s: float, before: bool
+) -> None:
     call, last = 1, 1
     while call <= last:
         box = Stalled()
@@ -77,7 +84,7 @@ def test_wherever_it_stands_still_it_says_no_more_than_that_it_was_late(stall_s:
         box.run(runs_s)
         assert box.world.drives() == (1, 1)
         begun = box.clock.calls
-        box.clock.at, box.clock.stall_s = begun + call, stall_s
+        box.clock.at, box.clock.stall_s, box.clock.before = begun + call, stall_s, before
         box.run(2 * PERIOD_S)
         last = box.clock.calls - begun
         box.run(LOOK_S)
