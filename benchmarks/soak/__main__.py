@@ -12,7 +12,7 @@ import json
 import random
 import sys
 
-from benchmarks.soak import compressed, real
+from benchmarks.soak import compressed, real, soaked
 
 
 def main() -> None:
@@ -30,7 +30,7 @@ def main() -> None:
         figures, found = compressed.figures(flown), flown.found
     else:
         seen = asyncio.run(real.soak(3600 * hours, given.seed))
-        figures, found = real.figures(seen), seen.found
+        figures, found = soaked.figures(seen), seen.found
     if given.json:
         print(json.dumps({"figures": figures, "found": found}, indent=2))
     else:

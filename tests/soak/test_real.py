@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from benchmarks.soak.box import Held
-from benchmarks.soak.real import Soaked, judge
+from benchmarks.soak.soaked import Soaked, judge
 from benchmarks.soak.words import WORDS
 from rotator.config.links import ProtocolName
 
