@@ -125,11 +125,12 @@ def in_sight(mount: Mount, name: str, at_s: float) -> bool:
     return sight.elevation_deg > mount.horizon_deg(sight.azimuth_deg) and not beside
 
 
-@pytest.mark.parametrize("mount", [FULL, SINGLE, OVER], ids=["450", "360", "360 over the top"])
-def test_a_flight_is_planned_on_the_turn_that_the_plan_of_many_has_chosen(mount: Mount) -> None:
+def test_a_flight_is_planned_on_the_turn_that_the_plan_of_many_has_chosen(
+    planned: tuple[Mount, tuple[PlannedPass, ...]],
+) -> None:
     """The steps of a flight are planned when it is due: they begin where the antenna was sent to wait."""
-    plan = schedule(follow(*satellites(6)), antenna(mount), EPOCH_S, EPOCH_S + 12 * HOUR_S)
-    for each, flight in flights(plan):
+    mount, plan = planned
+    for each, flight in flights(plan)[::5]:
         path = target_path(TARGETS[each.name], flight.begin_s, flight.end_s, 1.0)
         directions, early_s = path.directions(path.begin_s, STEP_S), flight.begin_s - flight.set_off_s
         speeds = Speeds(AZIMUTH_DPS, ELEVATION_DPS)
