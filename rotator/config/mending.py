@@ -1,7 +1,7 @@
-"""A text that is meant to be TOML: all that keeps it from being it, in words for the person who wrote it.
+"""All mistakes that keep a text from being TOML, in words for the person who wrote it.
 
-Mends each mistake to find the next one, and hands the mended text on, so that the keys can be checked too. Knows of
-tables and keys what a caller says.
+Mends each mistake to find the next one, and hands the mended text on, so that the keys can be checked too. Its
+caller says which tables and keys there are.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the rotor is to do once: a fault acknowledged, an angle taken, motors let go. Says what the rotor refused.
+"""What the rotor does once, on request: acknowledge a fault, take an angle, let go of motors. Says what it refused.
 
 Knows errands, moments and the words for a person. Does not repeat an errand: the axis may stand elsewhere by then.
 """
