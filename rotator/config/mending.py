@@ -1,7 +1,7 @@
 """All mistakes that keep a text from being TOML, in words for the person who wrote it.
 
-Mends each mistake to find the next one, and hands the mended text on, so that the keys can be checked too. Its
-caller says which tables and keys there are.
+Mends each mistake to find the next one, and hands the mended text on, so that the keys can be checked too. Its caller
+says which tables and keys there are.
 """
 
 from __future__ import annotations

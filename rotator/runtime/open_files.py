@@ -1,6 +1,6 @@
 """How many files and connections the program may have open, and what it says when the system gives no more.
 
-Each connection of a program or a browser is an open file. For those that it cannot take, asyncio itself would write some
+Each connection of a program or a browser is an open file. For those that it cannot take, asyncio itself would write a
 hundred tracebacks a second, and fill the disk. Knows the system's limit, and an event loop's errors.
 """
 
