@@ -28,16 +28,25 @@ URL_POLL_S = 0.1
 
 
 class SerialLink:
-    """`session` makes the protocol's side of the link. `retry_s`: the time between two attempts to open the port."""
+    """`session` makes the protocol's side of the link. `retry_s`: the time between two attempts to open the port, by
+    `opens`, which is pyserial's."""
 
     def __init__(
-        self, wire: Wire, port: str, baud: int, session: Callable[[], Session], *, retry_s: float = RETRY_S
+        self,
+        wire: Wire,
+        port: str,
+        baud: int,
+        session: Callable[[], Session],
+        *,
+        retry_s: float = RETRY_S,
+        opens: Callable[..., Any] = serial.serial_for_url,
     ) -> None:
         self.wire = wire
         self._port = port
         self._baud = baud
         self._session = session
         self._retry_s = retry_s
+        self._opens = opens
         self._logged = ""
         """The trouble in the last warning; empty while the port is open."""
 
@@ -47,7 +56,7 @@ class SerialLink:
     async def run(self) -> None:
         while True:
             try:
-                port = await asyncio.to_thread(self._open)
+                port = await self._opened()
             except Exception as fault:  # pyserial's URLs raise what their options run into: KeyError, re.error
                 self._tell(f"cannot be opened: {_why(fault)}")
             else:
@@ -65,8 +74,32 @@ class SerialLink:
     def close(self) -> None:
         """Nothing to do: `run` closes what it has opened."""
 
-    def _open(self) -> Any:
-        return serial.serial_for_url(self._port, self._baud, timeout=0)
+    async def _opened(self) -> Any:
+        """Open it in a thread of its own: a URL whose machine is off takes seconds, and holds up no end of the box."""
+        loop = asyncio.get_running_loop()
+        opening: asyncio.Future[Any] = loop.create_future()
+
+        def finish(port: Any, fault: Exception | None) -> None:
+            if opening.done():  # the link has ended meanwhile
+                _close(port)
+            elif fault:
+                opening.set_exception(fault)
+            else:
+                opening.set_result(port)
+
+        def work() -> None:
+            port, failure = None, None
+            try:
+                port = self._opens(self._port, self._baud, timeout=0)
+            except Exception as fault:
+                failure = fault
+            try:
+                loop.call_soon_threadsafe(finish, port, failure)
+            except RuntimeError:  # the event loop has ended meanwhile
+                _close(port)
+
+        threading.Thread(target=work, name=self.wire.name, daemon=True).start()
+        return await opening
 
     async def _converse(self, port: Any) -> str:
         """Carry bytes until the port fails. Returns the reason."""
@@ -137,6 +170,11 @@ def _why(fault: Exception) -> str:
             return str(fault)
         case _:
             return f"what stands behind :// is wrong: {fault}"
+
+
+def _close(port: Any) -> None:
+    if port is not None:
+        port.close()
 
 
 def _write(port: Any, data: bytes) -> None:

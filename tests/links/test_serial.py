@@ -8,12 +8,13 @@ from __future__ import annotations
 import asyncio
 import os
 import termios
+import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
+import serial
 
 from rotator.links.serial import SerialLink
 from rotator.links.wire import Wire
@@ -54,19 +55,18 @@ class Adapter:
             os.close(self._slave)
 
 
-class CountedPool(ThreadPoolExecutor):
-    """Where asyncio does its blocking work; it tells when so much of it has been done."""
+class Counted:
+    """Opens ports as pyserial does; it tells when so many attempts have been made."""
 
     def __init__(self, goal: int) -> None:
-        super().__init__(thread_name_prefix="asyncio_counted")
         self._left = goal
-        self.reached = asyncio.Event()
+        self.reached = threading.Event()
 
-    def submit(self, *work: Any, **more: Any) -> Any:
+    def __call__(self, *port: Any, **more: Any) -> Any:
         self._left -= 1
         if self._left <= 0:
             self.reached.set()
-        return super().submit(*work, **more)
+        return serial.serial_for_url(*port, **more)
 
 
 @pytest.fixture
@@ -118,13 +118,13 @@ def test_garbage_is_answered_and_moves_nothing(
 
 
 def test_a_missing_port_is_waited_for_and_said_once(
-    link: SerialLink, adapter: Adapter, running: Running, log: Any
+    wire: Wire, bench: Any, adapter: Adapter, running: Running, log: Any
 ) -> None:
     async def talk() -> None:
-        tries = CountedPool(10)
-        asyncio.get_running_loop().set_default_executor(tries)
+        tries = Counted(10)
+        link = SerialLink(wire, str(adapter.path), 9600, bench.gs232, retry_s=RETRY_S, opens=tries)
         async with running(link):
-            await asyncio.wait_for(tries.reached.wait(), PATIENCE_S)
+            assert await asyncio.to_thread(tries.reached.wait, PATIENCE_S)
             assert len(log.said) == 1
             assert log.said[0].startswith(f"link: {adapter.path} cannot be opened: ")
             assert log.said[0].endswith(

@@ -6,8 +6,9 @@ import asyncio
 import queue
 import socket
 import threading
+import time
 from collections.abc import Callable
-from contextlib import closing, suppress
+from contextlib import ExitStack, closing, suppress
 from typing import Any, cast
 
 import pytest
@@ -129,3 +130,26 @@ def test_a_url_that_pyserial_cannot_use_is_waited_for_like_a_port(
 
     asyncio.run(talk())
     assert log.count("waiting for it") == 1
+
+
+def test_a_machine_that_does_not_answer_holds_up_no_end(wire: Wire, new_ear: type[Any]) -> None:
+    """Its packets are lost: pyserial waits five seconds for a connection."""
+    with closing(socket.socket()) as full, ExitStack() as queue_of_it:
+        full.bind(("127.0.0.1", 0))
+        full.listen(0)
+        for _ in range(4):
+            waiting = queue_of_it.enter_context(closing(socket.socket()))
+            waiting.setblocking(False)
+            waiting.connect_ex(full.getsockname())
+
+        async def talk() -> float:
+            link = asyncio.create_task(
+                SerialLink(wire, f"socket://127.0.0.1:{full.getsockname()[1]}", 9600, new_ear).run()
+            )
+            await asyncio.sleep(0)
+            link.cancel()
+            await asyncio.gather(link, return_exceptions=True)
+            return time.monotonic()
+
+        cancelled_s = asyncio.run(talk())
+        assert time.monotonic() - cancelled_s < 1.0
