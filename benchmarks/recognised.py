@@ -12,6 +12,7 @@ unwind for, from where it stands as they begin. `--anywhere`: the antenna does n
 from __future__ import annotations
 
 import argparse
+import sys
 import tempfile
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
@@ -125,6 +126,8 @@ def main() -> None:
             done.append(each)
             if asked.each:
                 print(line(each), flush=True)
+            else:
+                print(f"{len(done)} of {len(wanted)} passes flown", file=sys.stderr, flush=True)
     after_s = [each.told.after_s - each.job.early_s for each in done if each.told]
     print(f"{len(done)} passes, {len(after_s)} recognised, at most {max(after_s, default=0.0):.1f} s after the rise")
     for name in ("known", "recognised", "stream"):
