@@ -9,6 +9,7 @@ from benchmarks.drills.boxes import ROTORS, Rotor
 from benchmarks.drills.card import HANGS, NAMES, REFUSES, WAYS, WORKS
 from benchmarks.drills.play import play
 from benchmarks.drills.script import Drill, Event
+from tests.search import some
 
 ORDERS = (
     Event(1.5, "console", "confirm", ("azimuth", 0.0)),
@@ -39,9 +40,15 @@ def drilled(rotor: Rotor, *events: Event) -> Drill:
     )
 
 
-@pytest.mark.parametrize("end", ENDS)
-@pytest.mark.parametrize(("begins_s", "lasts_s"), [(0.0, 10.0), (0.0, 40.0), (4.0, 2.5), (7.5, 40.0), (11.9, 3.0)])
-@pytest.mark.parametrize("rotor", ROTORS, ids=lambda rotor: rotor.kind)
+HANGING_S = (0.0, 10.0), (0.0, 40.0), (4.0, 2.5), (7.5, 40.0), (11.9, 3.0)
+"""When the card begins to hang, and for how long."""
+HANGING = [(rotor, *hang_s, end) for end in ENDS for hang_s in HANGING_S for rotor in ROTORS]
+
+
+@pytest.mark.search
+@pytest.mark.parametrize(
+    ("rotor", "begins_s", "lasts_s", "end"), some(HANGING), ids=lambda part: getattr(part, "kind", str(part))
+)
 def test_a_card_that_hangs(rotor: Rotor, begins_s: float, lasts_s: float, end: str) -> None:
     hang = Event(begins_s, "world", "card", (HANGS,)), Event(begins_s + lasts_s, "world", "card", (WORKS,))
     drill = drilled(rotor, *hang, *ENDS[end])
