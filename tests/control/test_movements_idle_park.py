@@ -191,7 +191,8 @@ class Judge:
         self.may_park, self.list_s = True, -math.inf
         if desk.status.timed_point and isinstance(order, RunTimed):
             interval_s, count = self.loaded
-            self.list_s = desk.now_s + (count - desk.status.timed_point - 1) * interval_s
+            if desk.status.timed_point < count:  # at its last point it has ended, perhaps long before this order
+                self.list_s = desk.now_s + (count - desk.status.timed_point - 1) * interval_s
 
     def lost(self, desk: Any, what: str) -> None:
         link = desk.status.controlled_by.partition("#")[0]
@@ -292,6 +293,15 @@ def play(desk: Any, script: list[tuple[Source, Order | str, float]]) -> None:
     counted=False,
 )
 @example(script=[(LINK, Aim(60.0, 20.0), 0.0), (LINK, Jog(EL, MINUS, None), 25.0)], counted=True)
+@example(
+    script=[
+        (LINK, LoadTimed(2.0, ((60.0, 20.0), (87.0, 20.0))), 7.5),
+        (LINK, RunTimed(), 7.5),
+        (LINK, Aim(87.0, 20.0), 7.5),
+        (LINK, RunTimed(), 4.0),
+    ],
+    counted=False,
+)
 def test_it_parks_only_after_a_new_order_and_when_all_has_come_to_rest(
     new_desk: Any, script: list[tuple[Source, Order | str, float]], *, counted: bool
 ) -> None:

@@ -13,6 +13,7 @@ import pytest
 
 from benchmarks.faults import DRILLS, MASTER, Drill, Mast, row, strike, worst
 from hw.ports import Axis, Direction
+from rotator.exchange.faults import FaultKind
 from rotator.exchange.orders import Aim, Jog, Order, Release, Stop
 from tests.scenario.false_alarms import NOISY, reported_in_moves
 from tests.search import some
@@ -149,7 +150,9 @@ def test_the_master_stays_open_until_acknowledged_and_nothing_runs() -> None:
     mast.run(10.0)
     assert not mast.world.azimuth.motor.supply
     assert mast.world.antenna()[0] == pytest.approx(stands_deg, abs=0.01)
-    assert mast.status.elevation.fault is None, "a motor without supply is not driven, so it is no fault that it stands"
+    fault = mast.status.elevation.fault
+    assert fault is not None, "the supply that it needs would turn azimuth too"
+    assert fault.kind is FaultKind.RELAY_WELDED, "a motor without supply is not driven, so it is no fault that it stands"
     mast.close()
 
 

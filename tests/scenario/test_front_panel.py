@@ -231,10 +231,10 @@ def test_a_broken_wire_to_the_stop_button_is_a_pressed_button(shack: Shack) -> N
 
 def test_for_a_second_at_the_start_every_lamp_is_lit_and_every_meter_is_at_its_end() -> None:
     shack = Shack(calibrate=True)  # this one waits for nothing
-    shack.wait(0.9)
+    shack.wait(0.8)  # with the time of its buses nearly a second
     assert shack.hands.lit() == set(shack.hands.spec.lamps)
     assert [shack.hands.needle(axis) for axis in ("azimuth", "elevation")] == pytest.approx([1.0, 1.0], abs=0.01)
-    shack.wait(0.3)
+    shack.wait(0.4)
     assert shack.hands.lit() != set(shack.hands.spec.lamps)
 
 
