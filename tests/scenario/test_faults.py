@@ -152,9 +152,7 @@ def test_the_master_stays_open_until_acknowledged_and_nothing_runs() -> None:
     assert mast.world.antenna()[0] == pytest.approx(stands_deg, abs=0.01)
     fault = mast.status.elevation.fault
     assert fault is not None, "the supply that it needs would turn azimuth too"
-    assert fault.kind is FaultKind.RELAY_WELDED, (
-        "a motor without supply is not driven, so it is no fault that it stands"
-    )
+    assert fault.kind is FaultKind.RELAY_WELDED, "without supply it is not driven: that it stands is no fault"
     mast.close()
 
 
