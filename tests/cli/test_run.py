@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from tests.boxes import free_port
+
 Start = Callable[..., Any]
 Rotator = Callable[..., Any]
 Send = Callable[[bytes], None]
@@ -33,11 +35,14 @@ pty = "gs232"
 
 
 def test_it_says_where_to_connect(start: Start, config: Path) -> None:
+    port = free_port()  # boxes of other tests use the usual one
+    with config.open("a") as file:
+        file.write(f'[page]\nlisten = "127.0.0.1:{port}"\n')
     box = start("run", "--config", config)
     greeting = box.until(r"azimuth 0°  elevation 0°\n")
     assert re.fullmatch(
         r"rotator \d\S* starts with \S+station.toml\nrotator \d\S*: a SIMULATED rotor\n  gs232b      gs232  \(ready\)\n"
-        r"  page        http://127\.0\.0\.1:8232  \(listening\)\n"
+        rf"  page        http://127\.0\.0\.1:{port}  \(listening\)\n"
         r"azimuth 0°  elevation 0°\n",
         greeting,
     )
