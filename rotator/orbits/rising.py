@@ -72,10 +72,11 @@ def waits_for(orders: Sequence[Heard], soon: Sequence[Soon], known: Known, likel
     `likely`: names of the satellites in use. Raises NotThere.
     """
     lasts_s, rounding = orders[-1].utc_s - orders[0].utc_s, rounding_deg(orders)
-    enough = rounding < WHOLE_DEG or (len(orders) >= LEAST_ORDERS and lasts_s >= LEAST_S - UNSTEADY_S)
-    if not enough or any(order.elevation_deg > 0 for order in orders):
+    repeated = len(orders) >= LEAST_ORDERS and lasts_s >= LEAST_S - UNSTEADY_S
+    if any(order.elevation_deg > 0 for order in orders) or not (repeated or rounding < WHOLE_DEG):
         return None
-    fits = [each for each in soon if _explains(each, orders, rounding)]
+    # A program that follows the azimuth below the horizon sends more than one order.
+    fits = [each for each in soon if _explains(each, orders, rounding, follows=repeated)]
     if len(fits) != 1:
         return None
     [only] = fits
@@ -98,10 +99,11 @@ def _rises_s(path: SampledPath, now_s: float, wait_s: float) -> float | None:
     return None
 
 
-def _explains(soon: Soon, orders: Sequence[Heard], rounding: float) -> bool:
-    """Whether this rise explains all orders by one clock of the program: each order has the satellite's azimuth of its
-    moment, or until the rise the azimuth of the rise."""
-    return any(_explained(soon, orders, least_s, rounding) for least_s in (-math.inf, soon.rises_s))
+def _explains(soon: Soon, orders: Sequence[Heard], rounding: float, *, follows: bool) -> bool:
+    """Whether this rise explains all orders by one clock of the program: each order has until the rise the azimuth of
+    the rise, or, if the program `follows` it below the horizon, the satellite's azimuth of its moment."""
+    since_s = (-math.inf, soon.rises_s) if follows else (soon.rises_s,)
+    return any(_explained(soon, orders, least_s, rounding) for least_s in since_s)
 
 
 def _explained(soon: Soon, orders: Sequence[Heard], least_s: float, rounding: float) -> bool:
