@@ -1,4 +1,4 @@
-"""What a story of a drill is told with: its moments and angles, and what programs and trackers do in it for a while.
+"""The parts of a drill's story: its moments and angles, and what programs and trackers send for a while.
 
 Knows one program, another one, a person and an axis of the mast. Does not know which part of a story comes when:
 `stories` does.

@@ -1,4 +1,4 @@
-"""The card of a drill: whatever it does, on every kind of rotor, the drill goes on, is the same each time, and finds
+"""The card of a drill may refuse or hang. On every kind of rotor the drill goes on, is the same each time, and finds
 nothing wrong with the box."""
 
 from __future__ import annotations

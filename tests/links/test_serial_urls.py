@@ -121,7 +121,7 @@ def test_a_port_without_a_descriptor_is_let_go_of_quietly(wire: Wire, bench: Any
 def test_a_url_that_pyserial_cannot_use_is_waited_for_like_a_port(
     wire: Wire, new_ear: type[Any], running: Running, log: Any, url: str
 ) -> None:
-    """Its handlers raise whatever they run into. A link must not end the box by that."""
+    """A handler of pyserial may raise any exception. None of them may end the box."""
 
     async def talk() -> None:
         async with running(SerialLink(wire, url, 9600, new_ear, retry_s=RETRY_S)):

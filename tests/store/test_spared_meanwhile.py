@@ -1,4 +1,4 @@
-"""While the card hangs, memory has what came last: also when the write that hung comes back, with whatever outcome."""
+"""While the card hangs, memory has the latest state: also after the hanging write ends, well or with an error."""
 
 from __future__ import annotations
 
