@@ -10,17 +10,15 @@ angle. So a stop then opens the relay of the supply.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import suppress
 
 from hw.chips.mcp41010 import Mcp41010
+from hw.drives.box_supply import BoxSupply
 from hw.drives.control_box import BoxSpec, ControlBox
-from hw.drives.positioned import DriveAngle, wait_until
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S, do_all, wait_until
+from hw.drives.positioned import DriveAngle
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
-
-ENABLE = "box_enable"
-"""The relay of the boxes' supply. A chip starts in the middle, so a box with supply from power-on would turn there."""
 
 LOST_STEP_DEG, ASTRAY_DEG = 2.5, 4.0
 """Degrees away from its step, or past it: from the first on a box gets its step again, from the second on its supply
@@ -32,7 +30,7 @@ REFRESH_S = 1.0
 class DigipotDrive:
     """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
 
-    `enable`: the line `ENABLE`, if that relay is wired. The relay closes when both chips have a step.
+    `enable`: the line of the supply's relay, if one is wired. The relay closes when both chips have a step.
     Raises HardwareError for a wrong table of steps.
     """
 
@@ -48,12 +46,9 @@ class DigipotDrive:
     ) -> None:
         self._clock = clock
         self._started_s = clock()
-        self._enable = enable
-        self._powered = False
+        self._supply = BoxSupply(enable)
         self._astray_deg: dict[Axis, float] = {}
         """How far each axis had turned away from its step, or past it, when its supply was cut for that."""
-        self.barred = False
-        """The supply stays off until `restore`, even if aims come."""
         self._unseen: set[Axis] = set()
         """The axes whose sensor has not reported a place yet."""
         self._refresh_s = 0.0
@@ -77,7 +72,7 @@ class DigipotDrive:
                 self._stop(box)
                 return
             box.scale.check(angle_deg)
-            if box.deaf or self.barred or self._somewhere():
+            if box.deaf or self._supply.barred or self._waits_for_sensor():
                 return
             box.order(angle_deg)
             box.until_s = min(until_s, now_s + LONGEST_LEASE_S)
@@ -94,15 +89,15 @@ class DigipotDrive:
         """Stop both boxes, the second also if the chip of the first does not answer. Raises HardwareError."""
         with self._changed:
             self._advance()
-            if self._powered and self._enable and not all(box.known for box in self._boxes.values()):
+            if self._supply.on and self._supply.wired and not all(box.known for box in self._boxes.values()):
                 self._cut()
                 return
-            self._each([box.hold for box in self._boxes.values()])
+            do_all([box.hold for box in self._boxes.values()])
 
     def release(self) -> None:
         """Switch the boxes' supply off; the next aim switches it on. Raises HardwareError: no relay is wired for it."""
         with self._changed:
-            if self._enable is None:
+            if not self._supply.wired:
                 raise HardwareError("the control boxes cannot be released: no relay is wired to their supply")
             self._advance()
             self._cut()
@@ -110,23 +105,23 @@ class DigipotDrive:
     def cut(self) -> bool:
         """Switch the boxes' supply off until `restore`. False: no relay is wired for it. Raises HardwareError."""
         with self._changed:
-            if self._enable is None:
+            if not self._supply.wired:
                 return False
             self._advance()
-            self.barred = True
+            self._supply.barred = True
             self._cut()
             return True
 
     def restore(self) -> None:
         """Allow the supply again: the next aim switches it on."""
         with self._changed:
-            self.barred = False
+            self._supply.barred = False
             self._astray_deg.clear()
 
     def due_s(self) -> float | None:
         with self._changed:
             moments = [box.until_s for box in self._boxes.values() if box.until_s is not None]
-            return min([*moments, self._refresh_s] if self._powered else moments, default=None)
+            return min([*moments, self._refresh_s] if self._supply.on else moments, default=None)
 
     def enforce(self, now_s: float) -> None:
         """Hold each box whose command has expired. Send the steps again when due, also if a chip does not answer.
@@ -139,10 +134,10 @@ class DigipotDrive:
             if any(self._only_a_cut_stops(box) for box in expired):
                 self._cut()
             due = [box.hold for box in expired]
-            if self._powered and now_s >= self._refresh_s:
+            if self._supply.on and now_s >= self._refresh_s:
                 self._refresh_s = now_s + REFRESH_S
                 due += [box.repeat for box in self._boxes.values()]
-            self._each(due)
+            do_all(due)
 
     def wait_until_due(self, patience_s: float) -> None:
         """For the guard's thread: sleep until `enforce` is due, an order came, or `patience_s` seconds have passed."""
@@ -169,7 +164,7 @@ class DigipotDrive:
     def unseen_s(self) -> float:
         """Seconds since the start without supply because a sensor has not reported a place. 0: all have."""
         with self._changed:
-            return self._clock() - self._started_s if self._somewhere() else 0.0
+            return self._clock() - self._started_s if self._waits_for_sensor() else 0.0
 
     def found(self, axis: Axis, angle_deg: float) -> None:
         """The rotor was measured at `angle_deg` now; the model goes on from there.
@@ -181,13 +176,18 @@ class DigipotDrive:
             self._unseen.discard(axis)
             box = self._boxes[axis]
             box.found(angle_deg, self._advance())
-            if not self._powered:
+            if not self._supply.on:
                 return
             astray_deg = box.astray_deg(angle_deg)
             if astray_deg > LOST_STEP_DEG:
                 box.repeat()
             if astray_deg > ASTRAY_DEG and self.cut():
                 self._astray_deg[axis] = astray_deg
+
+    @property
+    def barred(self) -> bool:
+        """The supply stays off until `restore`, even if aims come."""
+        return self._supply.barred
 
     def astray_deg(self, axis: Axis) -> float:
         """How far it had turned away from its step, or past it, when its supply was cut for that; 0: not cut."""
@@ -206,12 +206,12 @@ class DigipotDrive:
 
     def _somewhere(self) -> bool:
         """Whether a sensor has not reported yet and the supply can be withheld, because its relay is wired."""
-        return bool(self._unseen) and self._enable is not None
+        return bool(self._unseen) and self._supply.wired
 
     def _advance(self) -> float:
         now_s = self._clock()
         for box in self._boxes.values():
-            box.advance(now_s, self._powered)
+            box.advance(now_s, self._supply.on)
         return now_s
 
     def _feed(self, ordered: ControlBox, now_s: float) -> None:
@@ -219,23 +219,21 @@ class DigipotDrive:
 
         Without the relay the other chip is not touched: its box already has supply, and stands at its step.
         """
-        if self._powered:
+        if self._supply.on:
             return
         for box in self._boxes.values():
             box.deaf = False
             if box is ordered:
                 box.repeat()  # without its own supply the chip may have forgotten the step
-            elif self._enable:
+            elif self._supply.wired:
                 box.order_here()
-        self._powered, self._refresh_s = True, now_s + REFRESH_S
-        if self._enable:
-            try:
-                self._enable.set({ENABLE: True})
-            except HardwareError:
-                # A line that fails may have switched: the boxes count as supplied until the supply is cut.
-                with suppress(HardwareError):
-                    self._cut()
-                raise
+        self._refresh_s = now_s + REFRESH_S
+        try:
+            self._supply.switch_on()
+        except HardwareError:
+            with suppress(HardwareError):
+                self._cut()
+            raise
 
     def _stop(self, box: ControlBox) -> None:
         if self._only_a_cut_stops(box):
@@ -247,22 +245,9 @@ class DigipotDrive:
 
     def _only_a_cut_stops(self, box: ControlBox) -> bool:
         """Whether its own command may be turning it from an unknown angle, and the relay of the supply is wired."""
-        return box.until_s is not None and not box.known and self._powered and self._enable is not None
+        return box.until_s is not None and not box.known and self._supply.on and self._supply.wired
 
     def _cut(self) -> None:
-        assert self._enable is not None
-        self._enable.set({ENABLE: False})
-        self._powered = False
+        self._supply.switch_off()
         for box in self._boxes.values():
             box.unfed()
-
-    def _each(self, acts: Iterable[Callable[[], None]]) -> None:
-        """Call each of them, also after a failure. Raises the first HardwareError."""
-        failures: list[HardwareError] = []
-        for act in acts:
-            try:
-                act()
-            except HardwareError as failure:
-                failures.append(failure)
-        if failures:
-            raise failures[0]

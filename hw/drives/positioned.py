@@ -5,20 +5,9 @@ Knows no motor and no chip. Does not know how the angle is measured or modelled:
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
 from typing import Protocol
 
 from hw.ports import AngleSource, Axis
-
-
-def wait_until(
-    changed: threading.Condition, due_s: float | None, clock: Callable[[], float], patience_s: float
-) -> None:
-    """Sleep until `due_s` (None: nothing is due), until `changed`, or for `patience_s`. The caller holds `changed`."""
-    left_s = patience_s if due_s is None else min(patience_s, due_s - clock())
-    if left_s > 0:
-        changed.wait(left_s)
 
 
 class AngleDrive(Protocol):

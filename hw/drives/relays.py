@@ -9,30 +9,18 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 
-from hw.drives.motor_supply import MASTER, NEVER_S, MotorSupply
-from hw.drives.positioned import wait_until
+from hw.drives.leases import LONGEST_LEASE_S, wait_until
+from hw.drives.motor_supply import MASTER, MotorSupply
+from hw.drives.switched_motor import SwitchedMotor
 from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
 
-LONGEST_LEASE_S = 0.5
-"""Longest life of a command, even if the caller asks for more: when the caller dies, the motor stops within 0.5 s."""
 RELAYS: dict[tuple[Axis, Direction], str] = {
     (Axis.AZIMUTH, Direction.PLUS): "azimuth_cw",
     (Axis.AZIMUTH, Direction.MINUS): "azimuth_ccw",
     (Axis.ELEVATION, Direction.PLUS): "elevation_up",
     (Axis.ELEVATION, Direction.MINUS): "elevation_down",
 }
-
-
-@dataclass(slots=True)
-class _Motor:
-    on: Direction = Direction.OFF
-    until_s: float = NEVER_S
-    last: Direction = Direction.OFF
-    """The direction of the last run."""
-    stopped_s: float = NEVER_S
-    """When the motor was last switched off. A reversal waits for the dead time from this moment."""
 
 
 class RelayBank:
@@ -60,7 +48,7 @@ class RelayBank:
         self._dead_time_s = dead_time_s
         self._one_at_a_time = one_at_a_time
         self._supply = MotorSupply(lines, wired=master)
-        self._motors = {axis: _Motor() for axis in Axis}
+        self._motors = {axis: SwitchedMotor() for axis in Axis}
         self._lock = threading.Condition()
         self._due_s: float | None = None
 
@@ -143,7 +131,7 @@ class RelayBank:
             self._lines.set(everything)
             self._supply.note_off()
             for motor in self._motors.values():
-                self._note_stop(motor, now_s)
+                motor.note_stop(now_s)
             self._plan(now_s)
 
     def due_s(self) -> float | None:
@@ -160,7 +148,7 @@ class RelayBank:
         failures: list[HardwareError] = []
         with self._lock:
             for axis, motor in self._motors.items():
-                if motor.on is not Direction.OFF and motor.until_s <= now_s:
+                if motor.runs and motor.until_s <= now_s:
                     try:
                         self._open(axis, now_s)
                     except HardwareError as failure:
@@ -192,25 +180,24 @@ class RelayBank:
         if motor.on not in (Direction.OFF, direction):
             self._open(axis, now_s)
         # The watch learns of the lease before the relay closes: a closed relay is always watched.
-        if motor.on is Direction.OFF and self._may_start(motor, direction, now_s):
+        if not motor.runs and self._may_start(motor, direction, now_s):
             self._renew()
             self._close(axis, direction, now_s)
         elif motor.on is direction:
             self._renew()
 
-    def _may_start(self, motor: _Motor, direction: Direction, now_s: float) -> bool:
-        # A reversal at full speed breaks gears and burns contacts. The same direction may go on at once.
-        others_on = any(other.on is not Direction.OFF for other in self._motors.values() if other is not motor)
-        if self._one_at_a_time and others_on:
+    def _may_start(self, motor: SwitchedMotor, direction: Direction, now_s: float) -> bool:
+        another_runs = any(other.runs for other in self._motors.values() if other is not motor)
+        if self._one_at_a_time and another_runs:
             return False
-        return motor.last in (Direction.OFF, direction) or now_s >= motor.stopped_s + self._dead_time_s
+        return motor.may_turn(direction, now_s, self._dead_time_s)
 
     def _close(self, axis: Axis, direction: Direction, now_s: float) -> None:
         levels = {RELAYS[axis, Direction(-direction)]: False, RELAYS[axis, direction]: True}
         levels |= self._supply.for_a_motor(now_s)
         # A line that fails may have switched: the relay counts as closed until it is opened.
         motor = self._motors[axis]
-        motor.on = motor.last = direction
+        motor.note_start(direction)
         try:
             self._lines.set(levels)
         except HardwareError:
@@ -220,16 +207,11 @@ class RelayBank:
 
     def _open(self, axis: Axis, now_s: float) -> None:
         motor = self._motors[axis]
-        if motor.on is Direction.OFF:
+        if not motor.runs:
             return
         self._lines.set({RELAYS[axis, Direction.PLUS]: False, RELAYS[axis, Direction.MINUS]: False})
-        self._note_stop(motor, now_s)
+        motor.note_stop(now_s)
         self._supply.linger(now_s)
-
-    def _note_stop(self, motor: _Motor, now_s: float) -> None:
-        if motor.on is not Direction.OFF:
-            motor.on = Direction.OFF
-            motor.stopped_s = now_s
 
     def _renew(self) -> None:
         if self._watch:
@@ -237,11 +219,11 @@ class RelayBank:
             self._renewed = True
 
     def _idle(self) -> bool:
-        return all(motor.on is Direction.OFF for motor in self._motors.values())
+        return not any(motor.runs for motor in self._motors.values())
 
     def _plan(self, now_s: float) -> None:
         """Set the next moment for `enforce`. Wake the guard if that moment is sooner than before, or there is none."""
-        leases_s = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
+        leases_s = [motor.until_s for motor in self._motors.values() if motor.runs]
         if self._supply.fed_until_s > now_s:
             leases_s.append(self._supply.fed_until_s)
         if self._watch and self._renewed and not leases_s:

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from hw.chips.pca9685 import Pca9685
-from hw.drives.positioned import DriveAngle, wait_until
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S, wait_until
+from hw.drives.positioned import DriveAngle
 from hw.drives.servo_axis import ServoAxis, ServoSpec
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 

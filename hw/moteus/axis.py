@@ -7,11 +7,12 @@ no library, no thread and no clock: moments are arguments, in seconds.
 from __future__ import annotations
 
 import math
-from collections import deque
 from enum import Enum
 
+from hw.moteus.errands import ERRAND_S, Errands, Request
 from hw.moteus.faults import LIMITS, Limit, explain
-from hw.moteus.orders import WATCHDOG_S, Answer, Home, Mode, MoteusSpec, Move, Order, Query, SetOutput, Stop
+from hw.moteus.hearing import Hearing
+from hw.moteus.orders import WATCHDOG_S, Answer, Mode, MoteusSpec, Move, Order, Query, SetOutput, Stop
 from hw.moteus.placing import Placing
 from hw.ports import HardwareError
 
@@ -25,8 +26,6 @@ order."""
 FORGIVEN_S = 2.0
 """Seconds: after a silence up to this the axis takes the next order without an acknowledgement. Meanwhile the
 controller stood and held, and it still knows its place."""
-ERRAND_S = 2.0
-"""Seconds: an operator's request that cannot be delivered to the controller in this time is dropped."""
 
 MOVES_DPS, STANDS_DPS = 0.01, 0.5
 """Speeds in degrees a second: an axis faster than the first moves; slower than the second its angle can be read by
@@ -53,30 +52,18 @@ class MoteusAxis:
         self._look_only = look_only
         self.fault: str | None = None
         """What stopped this axis, in a sentence. None: no fault, or the operator has acknowledged it."""
-        self.answer: Answer | None = None
-        """The latest answer."""
-        self.heard_s = -math.inf
-        """When the latest answer came."""
+        self.hearing = Hearing()
         self.until_s = -math.inf
         """When the present aim expires."""
         self.wish = Wish.NOTHING
-        self.gap_s = 0.0
-        """Seconds of silence before the latest answer."""
-        self.misses = 0
-        """The number of orders without an answer since the start."""
-        self.came_back = False
-        """Whether the order before the latest answer was not answered."""
         self._name = f"moteus {spec.can_id}"
         self._placing = Placing(spec)
         self._aim = (0.0, 0.0, 0.0)  # angle_deg, rate_dps, and the moment of the command
-        self._errands: deque[Stop | SetOutput] = deque()
-        self._errands_until_s = math.inf
+        self._errands = Errands()
         self._engaged = False
         """Whether this program has ordered the controller to move or to hold, so that it has torque."""
         self._ordered_to_hold = False
         """Whether the latest answered order was to hold."""
-        self._missed = True
-        """Whether the latest order was not answered."""
         self._next_s = -math.inf
 
     # --- what the program wants
@@ -102,14 +89,14 @@ class MoteusAxis:
 
     def release(self) -> None:
         """Take the torque away, now or as soon as the controller answers again."""
-        self._send_first(math.inf, Stop())
+        self._send_first(Stop())
         self._want(Wish.LET_GO)
 
     def acknowledge(self, now_s: float) -> None:
         """Clear the fault. If its cause is still present, it comes back. Raises HardwareError: no answer."""
         self._must_answer(now_s)
         self.fault = None
-        self._send_first(now_s + ERRAND_S, Stop())
+        self._send_first(Stop(), until_s=now_s + ERRAND_S)
 
     def confirm(self, angle_deg: float, exactly: bool, now_s: float) -> None:
         """The operator or a sensor has found the axis at `angle_deg`: `exactly`, or at the nearest angle that agrees
@@ -129,18 +116,23 @@ class MoteusAxis:
         self.hold()
         self._placing.doubt()
         # First take the torque away. A controller that holds would turn the motor by the shift of its scale.
-        self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(agreed_deg), exactly))
+        taken = SetOutput(self.spec.revolutions(agreed_deg), exactly)
+        self._send_first(Stop(), taken, until_s=now_s + ERRAND_S)
 
     def _want(self, wish: Wish) -> None:
         self.wish = wish
         self._next_s = -math.inf
 
-    def _send_first(self, until_s: float, *errands: Stop | SetOutput) -> None:
-        self._errands = deque(errands)
-        self._errands_until_s = until_s
+    def _send_first(self, *requests: Request, until_s: float = math.inf) -> None:
+        self._errands.put(*requests, until_s=until_s)
         self._next_s = -math.inf
 
     # --- what is known
+
+    @property
+    def answer(self) -> Answer | None:
+        """The latest answer; None: none has come yet."""
+        return self.hearing.answer
 
     @property
     def busy(self) -> bool:
@@ -165,10 +157,6 @@ class MoteusAxis:
     def position_known(self) -> bool:
         return self.answer is not None and not self._placing.unknown
 
-    def silent_s(self, now_s: float) -> float:
-        """Seconds since its last answer; infinite: it never answered."""
-        return now_s - self.heard_s
-
     @property
     def limited_by(self) -> Limit | None:
         """What limits a controller without a fault; None: no limit is active."""
@@ -182,7 +170,7 @@ class MoteusAxis:
         return self._placing.angle_deg(answer)
 
     def _must_answer(self, now_s: float) -> Answer:
-        if self.answer is None or self.silent_s(now_s) > STALE_S:
+        if self.answer is None or self.hearing.silent_s(now_s) > STALE_S:
             raise HardwareError(f"{self._name} does not answer: check its supply, the CAN wires and its id")
         return self.answer
 
@@ -196,17 +184,16 @@ class MoteusAxis:
         if now_s < self._next_s:
             return None
         self._next_s = now_s + (MOVING_EVERY_S if self.wish is Wish.AIM or self.moving or self.busy else PARKED_EVERY_S)
-        if now_s > self._errands_until_s:
-            self._errands.clear()
+        self._errands.expire(now_s)
         # A silent controller may have lost its supply, and its position with it: ask for its state before it may move.
-        if self._missed or self.answer is None:
+        if self.hearing.missed or self.answer is None:
             return Query()
         if self._errands:
-            return self._errands[0]
+            return self._errands.first
         if self.fault or self.wish not in (Wish.AIM, Wish.HOLD):
             return Query()
         if not self._engaged and self.answer.mode == Mode.TIMEOUT:  # from an earlier run of the program
-            self._send_first(math.inf, Stop())
+            self._send_first(Stop())
             return Stop()
         return self._move(now_s)
 
@@ -220,14 +207,11 @@ class MoteusAxis:
 
     def missed(self) -> None:
         """The latest order was not answered."""
-        self._missed = True
-        self.misses += 1
+        self.hearing.note_miss()
 
     def heard(self, order: Order, answer: Answer, now_s: float) -> None:
         """The answer to `order`."""
-        self.came_back = self._missed and self.answer is not None
-        self.gap_s = self.silent_s(now_s)
-        self.answer, self.heard_s, self._missed = answer, now_s, False
+        self.hearing.note(answer, now_s)
         self._ordered_to_hold = isinstance(order, Move) and math.isnan(order.position_rev)
         if self._errands and self._placing.given_rev is None:
             self._run_errand(order, answer)
@@ -236,29 +220,26 @@ class MoteusAxis:
         if given_rev is not None and not self._errands and not self._look_only:
             # As in `confirm`. But a fault stays: only a person clears it.
             loosen = [] if answer.mode in (Mode.STOPPED, Mode.FAULT) else [Stop()]
-            self._send_first(math.inf, *loosen, SetOutput(given_rev, exactly=False))
+            self._send_first(*loosen, SetOutput(given_rev, exactly=False))
         if self._errands:
             self._run_errand(order, answer)
             return
-        if self._timed_out(answer) and self.gap_s <= FORGIVEN_S:
-            self._send_first(math.inf, Stop())
+        if self._timed_out(answer) and self.hearing.gap_s <= FORGIVEN_S:
+            self._send_first(Stop())
         elif self.fault is None:
             self.fault = self._judge(answer)
             if self.fault and self.wish is Wish.AIM:
                 self.wish = Wish.HOLD
 
     def _run_errand(self, order: Order, answer: Answer) -> None:
-        match self._errands[0]:
-            case Stop():  # the answer may be older than the order, so the mode shows whether the order is done
-                done = order == Stop() and answer.mode == Mode.STOPPED
-                self._engaged = self._engaged and not done
+        match self._errands.answered(order, answer, placed=self._placing.given_rev is None):
+            case Stop():
+                self._engaged = False
             case SetOutput():
-                done = isinstance(order, SetOutput) and answer.home == Home.OUTPUT and self._placing.given_rev is None
-                if done:
-                    self._placing.confirmed()
-        if done:
-            self._errands.popleft()
-            self._next_s = -math.inf
+                self._placing.confirmed()
+            case None:
+                return
+        self._next_s = -math.inf
 
     def _timed_out(self, answer: Answer) -> bool:
         return answer.mode == Mode.TIMEOUT and self._engaged

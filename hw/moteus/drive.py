@@ -9,8 +9,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.drives.positioned import DriveAngle
-from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import FORGIVEN_S, STALE_S, MoteusAxis, Wish
 from hw.moteus.faults import Limit
 from hw.moteus.orders import Answer, MoteusSpec, Order
@@ -102,7 +102,7 @@ class MoteusDrive:
     def forgiven(self, axis: Axis) -> bool:
         """Whether the axis, if it is silent now and answered at once, would obey without an acknowledgement."""
         with self._lock:
-            return self._axes[axis].silent_s(self._clock()) <= FORGIVEN_S
+            return self._axes[axis].hearing.silent_s(self._clock()) <= FORGIVEN_S
 
     def faults(self) -> dict[Axis, str]:
         """For each stopped axis: the fault, as a sentence. It stays until `acknowledge`."""
@@ -117,7 +117,7 @@ class MoteusDrive:
     def misses(self, axis: Axis) -> int:
         """The number of orders that its controller has not answered since the start."""
         with self._lock:
-            return self._axes[axis].misses
+            return self._axes[axis].hearing.misses
 
     def answer(self, axis: Axis) -> Answer | None:
         """The controller's latest answer: volts, temperature, mode; None: it has not answered yet."""
@@ -170,7 +170,7 @@ class MoteusDrive:
             self._offline = None
             found = self._axes[axis]
             found.heard(order, answer, self._clock())
-            gap_s = found.gap_s if found.came_back else 0.0
+            gap_s = found.hearing.gap_s if found.hearing.came_back else 0.0
         if gap_s:
             self.on_return(axis, gap_s)
 
@@ -195,6 +195,6 @@ class MoteusDrive:
     def _reached(self, axis: Axis) -> MoteusAxis:
         """The axis. Raises HardwareError if the connection is lost and its last answer is too old."""
         found = self._axes[axis]
-        if self._offline and found.silent_s(self._clock()) > STALE_S:
+        if self._offline and found.hearing.silent_s(self._clock()) > STALE_S:
             raise HardwareError(self._offline)
         return found

@@ -21,7 +21,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from hw.buses.gpio import real_gpiod
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
 

@@ -1,8 +1,8 @@
 """The whole configuration: all its tables, the small ones in this file, and the rules across tables.
 
 The bigger tables have files beside this one, the kinds of rotor have theirs in `kinds/`; `conflicts` knows what two
-parts must not share. Defaults and bounds are in
-these tables, except what differs by kind of rotor: `usual` of each kind. Knows no file on a disk and no hardware.
+parts must not share. Defaults and bounds are in these tables, except what differs by kind of rotor: `usual` of each
+kind. Knows no file on a disk and no hardware.
 """
 
 from __future__ import annotations

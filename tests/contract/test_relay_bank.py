@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from hw.buses.gpio import GpioOutputs
-from hw.drives.relays import LONGEST_LEASE_S, RELAYS, RelayBank
+from hw.drives.leases import LONGEST_LEASE_S
+from hw.drives.relays import RELAYS, RelayBank
 from hw.ports import Axis, Direction
 from hw.safety.guard import Guard
 from tests.contract.bench import Bench, Edge

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import pytest
 
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import Axis, Direction
 from rotator.control.commands import HOLD, Command, Run, Steer
 from rotator.exchange.orders import Aim, Jog, Order, Release, Stop

@@ -13,9 +13,10 @@ from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
 from hw.buses.gpio import GpioOutputs
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus
 from hw.chips.mcp41010 import Mcp41010
+from hw.drives.box_supply import ENABLE
 from hw.drives.control_box import BoxSpec
-from hw.drives.digipot import ENABLE, DigipotDrive
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.digipot import DigipotDrive
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError
 from hw.safety.guard import Guard
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import Axis
 from tests.hw.drives.test_digipot import AZ, EL, Bench
 from tests.search import examples

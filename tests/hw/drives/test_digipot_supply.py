@@ -11,8 +11,9 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.chips.mcp41010 import Mcp41010
+from hw.drives.box_supply import ENABLE
 from hw.drives.control_box import BoxSpec
-from hw.drives.digipot import ENABLE, DigipotDrive
+from hw.drives.digipot import DigipotDrive
 from hw.ports import Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

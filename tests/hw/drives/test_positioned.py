@@ -6,7 +6,8 @@ import threading
 
 import pytest
 
-from hw.drives.positioned import DriveAngle, wait_until
+from hw.drives.leases import wait_until
+from hw.drives.positioned import DriveAngle
 from hw.ports import AngleSource, Axis, HardwareError
 
 

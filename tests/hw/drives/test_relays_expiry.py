@@ -9,8 +9,9 @@ from contextlib import suppress
 import pytest
 
 from firmware_sim.clock import SimClock
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.drives.motor_supply import MASTER_LINGER_S
-from hw.drives.relays import LONGEST_LEASE_S, RelayBank
+from hw.drives.relays import RelayBank
 from hw.ports import HardwareError
 from tests.hw.drives.relay_bench import AZ, DEAD_TIME_S, EL, MINUS, OFF, PINS, PLUS, Bench
 

@@ -14,8 +14,9 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, ru
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.drives.motor_supply import MASTER_LINGER_S
-from hw.drives.relays import LONGEST_LEASE_S, RelayBank
+from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
 from tests.search import examples
 

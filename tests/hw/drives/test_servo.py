@@ -16,7 +16,7 @@ from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from hw.chips.pca9685 import Pca9685
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.drives.servo import ENABLE, ServoDrive
 from hw.drives.servo_axis import ServoSpec
 from hw.ports import AngleSource, Axis, HardwareError

@@ -178,12 +178,12 @@ def test_after_a_silence_it_is_asked_before_it_moves_on() -> None:
     bench = Bench()
     bench.moves()
     bench.silent(0.1)
-    assert bench.axis.misses == pytest.approx(5, abs=1)
+    assert bench.axis.hearing.misses == pytest.approx(5, abs=1)
     assert bench.hears() == Query()
-    assert bench.axis.came_back
-    assert bench.axis.gap_s == pytest.approx(0.12, abs=0.03)
+    assert bench.axis.hearing.came_back
+    assert bench.axis.hearing.gap_s == pytest.approx(0.12, abs=0.03)
     assert isinstance(bench.hears(), Move)
-    assert not bench.axis.came_back
+    assert not bench.axis.hearing.came_back
 
 
 def test_a_controller_that_answers_for_the_first_time_has_not_come_back() -> None:
@@ -192,7 +192,7 @@ def test_a_controller_that_answers_for_the_first_time_has_not_come_back() -> Non
     axis.missed()
     assert axis.order(50.08) == Query()
     axis.heard(Query(), STANDS, 50.08)
-    assert not axis.came_back
+    assert not axis.hearing.came_back
 
 
 @pytest.mark.parametrize(("seconds", "forgiven"), [(1.9, True), (2.1, False)])

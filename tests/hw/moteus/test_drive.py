@@ -11,7 +11,7 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 from firmware_sim.clock import SimClock
 from firmware_sim.moteus.motor import Mode
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.moteus.axis import STALE_S
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.orders import MoteusSpec

@@ -7,7 +7,8 @@ import pytest
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
 from firmware_sim.moteus.motor import Mode
-from hw.moteus.axis import ERRAND_S, STALE_S
+from hw.moteus.axis import STALE_S
+from hw.moteus.errands import ERRAND_S
 from hw.ports import HardwareError
 from tests.hw.moteus.drive_bench import AZ, Bench
 

@@ -15,7 +15,8 @@ from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.buses.i2c import SimI2CBus
 from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
-from hw.drives.relays import LONGEST_LEASE_S, RelayBank
+from hw.drives.leases import LONGEST_LEASE_S
+from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction, HardwareError, OutputLines
 from hw.safety.guard import GUARD_THREAD, Guard
 

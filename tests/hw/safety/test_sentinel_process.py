@@ -17,7 +17,7 @@ import pytest
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs, LinesBusyError
-from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
 from hw.safety.sentinel_process import SILENCE_S, main, watch
