@@ -204,7 +204,7 @@ class DigipotDrive:
         """One step of the chip, in degrees on the rotor's scale."""
         return self._boxes[axis].resolution_deg
 
-    def _somewhere(self) -> bool:
+    def _waits_for_sensor(self) -> bool:
         """Whether a sensor has not reported yet and the supply can be withheld, because its relay is wired."""
         return bool(self._unseen) and self._supply.wired
 
