@@ -90,7 +90,10 @@ def _goes_on(box: RunningBox) -> str:
     tracks = box.status()["tracks"]
     if tracks is not None:
         return _sentence(tracks)
-    return "The box makes a plan." if state == "planning" else "The box tracks nothing."
+    if state == "planning":
+        return "The box makes a plan."
+    why = state.removeprefix("ended: ")
+    return f"The box tracks nothing: {why}." if why != state else "The box tracks nothing."
 
 
 def _planned(box: RunningBox) -> str:

@@ -90,11 +90,21 @@ class Follower:
             if reason := self._flown.lost(status, now):
                 log.warning("the plan rests: %s", reason)
                 self._rests_until_s = now.loop_s + REST_S
+            elif self._flown.clock_was_set(now):
+                self._fly_anew(now)
             elif now.utc_s >= self._flown.flight.end_utc_s:
                 self._flown, self._again_utc_s = None, now.utc_s
             return
         if now.utc_s >= self._again_utc_s or self._again_utc_s > now.utc_s + AGAIN_S + 1.0:
             self._plan(now)
+
+    def _fly_anew(self, now: Now) -> None:
+        """The clock was set: fly what the plan has for the new time. If that is nothing, the antenna stops."""
+        log.warning("the clock was set: the plan of many passes is made again")
+        self._flown = None
+        self._plan(now)
+        if self._flown is None:
+            self._tracker.end_planned()
 
     def _may_fly(self, status: Status, now: Now) -> bool:
         return (

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from rotator.exchange.orders import LetGo, Order, Park, Release, SetMode, Stop, Take
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
-from rotator.tracking.next_flight import NextFlight, Now
+from rotator.tracking.next_flight import NextFlight, Now, Wanted
 from rotator.tracking.ports import TRACK
 from rotator.tracking.program import Program
 
@@ -27,18 +27,26 @@ BEFORE_S = 120.0
 
 @dataclass(frozen=True, slots=True)
 class Flown:
-    """A flight that has been ordered. `planned`: when its plan was begun; `ordered_s`: on the loop's clock."""
+    """A flight that has been ordered. `planned`: when its plan was begun; `ordered_s`: on the loop's clock.
+
+    `wanted`: the target as the plan knew it.
+    """
 
     flight: NextFlight
     planned: Now
     ordered_s: float
+    wanted: Wanted | None = None
 
     def is_over(self, now: Now) -> bool:
         """Whether a new plan is due."""
-        if now.utc_s >= self.flight.end_utc_s or abs(now.apart_s - self.planned.apart_s) > JUMPED_S:
+        if now.utc_s >= self.flight.end_utc_s or self.clock_was_set(now):
             return True
         before_s = self.flight.begin_utc_s - BEFORE_S
         return self.planned.utc_s < before_s - FRESH_S and now.utc_s >= before_s
+
+    def clock_was_set(self, now: Now) -> bool:
+        """Whether the clock was set since the plan: then the flight has the wrong times."""
+        return abs(now.apart_s - self.planned.apart_s) > JUMPED_S
 
     def is_shown(self, status: Status) -> bool:
         """Whether the status is later than the order of this flight."""
@@ -106,6 +114,8 @@ class Tracked:
     def text(self, status: Status) -> str:
         """As `Tracker.state`."""
         flown = self.request.flown
+        if self.request.words and self.held:
+            return f"ended: {self.held}"
         if self.request.words and self.refused:
             return f"refused: {self.refused}"
         if self.request.words:

@@ -17,7 +17,7 @@ from rotator.exchange.orders import BOTH, Aim, Order, Stop
 from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.tracking.next_flight import NeverRises, NextFlight, Now
+from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 from rotator.tracking.ports import TRACK, Box, Finder, Planner
 from rotator.tracking.program import CannotFly, Program
 from rotator.tracking.system_clock import TOLD_S
@@ -153,6 +153,12 @@ class Tracker:
             self._order(flight, of_plan=True)
             return True
 
+    def end_planned(self) -> None:
+        """End a flight of the plan of many passes. The antenna stops if the tracker moves it."""
+        with self._lock:
+            if self._tracked.following and self._tracked.of_plan:
+                self._stop()
+
     def fail(self, reason: str) -> None:
         """End the tracking because of a bug of the program. The antenna stops if the tracker moves it."""
         with self._lock:
@@ -200,7 +206,7 @@ class Tracker:
 
     def _fly(self, request: Request, asked: int, now: Now) -> None:
         try:
-            flight = self._plan(request, now)
+            flight, wanted = self._plan(request, now)
         except (Unknown, NotThere, NeverRises, CannotFly, RuntimeError) as reason:
             self._refuse(asked, request, str(reason))
             return
@@ -211,21 +217,32 @@ class Tracker:
                 return
             taken = self._tracked.taken_by(status)
             if not taken:
-                self._tracked = self._tracked.flies(Flown(flight, now, status.at_s))
+                self._tracked = self._tracked.flies(Flown(flight, now, status.at_s, wanted))
                 self._order(flight.order)
         if taken:
             self._end(asked, request.words, f"{taken} moves the antenna")
 
-    def _plan(self, request: Request, now: Now) -> NextFlight:
+    def _plan(self, request: Request, now: Now) -> tuple[NextFlight, Wanted | None]:
         antenna = self._box.antenna()
         if antenna is None:
             raise NotThere("the antenna's angles are not known")
         if request.program:
-            return self._planner.plan_program(request.program, antenna, now)
-        wanted = self._finder.find(request.words)
-        if isinstance(wanted, Aim):  # the file of elements has gone, and the words now mean a direction
-            raise Unknown(f'"{request.words}" is no moving target any more')
-        return self._planner.plan(wanted, antenna, now)
+            return self._planner.plan_program(request.program, antenna, now), None
+        wanted = self._wanted(request)
+        return self._planner.plan(wanted, antenna, now), wanted
+
+    def _wanted(self, request: Request) -> Wanted:
+        """The target with its newest elements; while their file is gone, with those of the flight before."""
+        try:
+            if isinstance(wanted := self._finder.find(request.words), Wanted):
+                return wanted
+            raise Unknown(f'"{request.words}" is no moving target any more')  # without its file: a direction
+        except Unknown as reason:
+            before = request.flown.wanted if request.flown else None
+            if before is None:
+                raise
+            log.warning("%s; it is tracked on with the elements read before", reason)
+            return before
 
     def _refuse(self, asked: int, request: Request, reason: str) -> None:
         """The request cannot be planned. The tracking before it goes on; a flight of the request itself ends."""

@@ -203,6 +203,30 @@ def test_while_the_clock_may_be_wrong_nothing_moves(rise: Box) -> None:
     assert rise.loop.status.controlled_by == ""
 
 
+@pytest.mark.parametrize("into_s", [-10.0, 120.0])
+@pytest.mark.parametrize("by_s", [-86_400.0, -3600.0, -600.0, -10.0, 10.0, 300.0, 3600.0, 86_400.0])
+def test_where_the_clock_is_set_during_a_flight_the_plan_of_the_new_time_is_flown(into_s: float, by_s: float) -> None:
+    """Before the rise and in the pass. Where nothing is up at the new time the antenna stands."""
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    box = Box(found.aos_s - 40.0, follow=FOLLOWS_ISS)
+    box.wait(40.0 + into_s)
+    assert box.loop.status.flown is not None
+    box.set_clock(by_s)
+    box.wait(75.0)
+    flown, late_s = box.loop.status.flown, into_s + by_s + 75.0
+    if found.aos_s + late_s < (found.los_s or 0.0) and late_s > 0.0:
+        assert flown is not None
+        assert box.off_deg("iss") < 5.0
+    elif flown is None:
+        assert not box.loop.status.moving
+        assert box.loop.status.controlled_by == ""
+    else:
+        rises = pass_of("iss", 0.0, box.utc_s - 600.0).aos_s
+        assert rises is not None
+        assert flown.begin_s - box.clock() == pytest.approx(rises - box.utc_s, abs=2.0)
+
+
 def test_a_stop_that_comes_right_before_the_flight_is_ordered_comes_after_it(rise: Box) -> None:
     """What is slow at that moment is the log: while it writes, a program stops the antenna."""
 

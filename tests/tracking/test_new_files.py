@@ -10,7 +10,7 @@ import pytest
 from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.tracking.known_sky import KnownSky
-from tests.tracking.tracked_box import ELEMENTS, FEBRUARY_S, Box
+from tests.tracking.tracked_box import ELEMENTS, FEBRUARY_S, Box, pass_of
 
 
 @pytest.fixture
@@ -63,3 +63,31 @@ def test_without_a_place_of_the_station_an_unknown_name_is_the_first_error(words
 
 def test_without_a_place_a_direction_is_known() -> None:
     assert KnownSky(None, Catalogue(())).find("180 45") == Aim(180.0, 45.0)
+
+
+@pytest.mark.parametrize("left", [None, "", "<html>", "ISS\n1 25544U 98067A"])
+@pytest.mark.parametrize("by_s", [3.0, 86_400.0])
+def test_where_the_file_goes_or_breaks_its_tracked_satellite_is_tracked_on(
+    tmp_path: Path, left: str | None, by_s: float, caplog: pytest.LogCaptureFixture
+) -> None:
+    """A new plan needs the elements: the clock is set. Some programs delete a file before they write it anew."""
+    file = tmp_path / "sets.tle"
+    file.write_text(ELEMENTS.read_text(encoding="utf-8"), encoding="utf-8")
+    rises_s = pass_of("iss").aos_s
+    assert rises_s is not None
+    box = Box(rises_s - 20.0, elements=file)
+    assert box.tracker.track("iss") == ""
+    box.wait(60.0)
+    if left is None:
+        file.unlink()
+    else:
+        file.write_text(left, encoding="utf-8")
+    box.known.refresh()
+    box.set_clock(by_s)
+    box.wait(30.0)
+    assert box.tracker.state == "tracking"
+    assert len(box.planner.plans) == 2
+    assert box.loop.status.flown is not None
+    assert ("with the elements read before" in caplog.text) is (left is None)
+    if by_s < 60.0:
+        assert box.off_deg("iss") < 5.0
