@@ -23,6 +23,7 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.axis.run_on import RunOn
 from rotator.control.axis.seen_run import (
+    BLIND_S,
     END_WINDOWS_S,
     EXTRAPOLATED_AFTER_S,
     HELD_UNSEEN_S,
@@ -37,12 +38,8 @@ from rotator.exchange.motor import Trust
 DOUBTS_AFTER_S = 0.5
 GAP_S = 0.5
 """No command to a relay holds for longer without being renewed."""
-BLIND_S = 1.0
-"""An axis may turn without being seen to turn, in short runs of this length in all."""
 MOVED_DEG, MOVED_NOISES = 0.5, 4.0
 """An axis has been moved when it is this far from where it stood, and this many times the noise."""
-SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
-"""An axis is watched for this long before it is taken to stand: longer where the readings scatter more."""
 
 
 class OpeningWatch:
@@ -67,8 +64,6 @@ class OpeningWatch:
         self._seen_s = -math.inf
         """When the latest reading was taken."""
         self._rest = RestPlace()
-        self._blind_s = 0.0
-        """For how long relays were closed since the axis was last seen to turn."""
         self._obstacles = Obstacles(seen.limits if placed else None)
 
     @property
@@ -108,7 +103,7 @@ class OpeningWatch:
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""
         self._trusts.checked()
-        self._run.ended, self._blind_s, self._run_on.ran_on = None, 0.0, False
+        self._run.ended, self._run.blind_s, self._run_on.ran_on = None, 0.0, False
         self._obstacles.forget_all()
 
     def note_relays(self, relays: RelayState, was: RelayState) -> None:
@@ -151,16 +146,13 @@ class OpeningWatch:
         self._supplied_s, self._unbroken = relays.begun_s, True
         run.see(at_s)
         if run.line is not None:
-            self._blind_s = 0.0
             self._rest.turned()
             self._obstacles.turned_to(self._place_deg)
-        elif at_s - max(relays.begun_s, run.turned_s) > self._longest_blind_s:
+        elif at_s - max(relays.begun_s, run.turned_s) > run.longest_blind_s:
             self._obstacles.note(relays.direction, self._place_deg)
             self._rest.held(self._place_deg, len(self._latest))
 
     def _end(self, now_s: float, direction: Direction, lasted_s: float) -> None:
-        if self._run.line is None:
-            self._blind_s += now_s - max(now_s - lasted_s, self._run.turned_s)
         place_deg = self._place_deg if self._latest else 0.0
         if self._run.line is not None and now_s - self._seen_s > EXTRAPOLATED_AFTER_S:
             # Without readings: its motor was powered until now.
@@ -188,14 +180,8 @@ class OpeningWatch:
             self._trusts.seen_open(ended.direction)
 
     def _stands(self, at_s: float) -> bool:
-        trend, powered_dps = self._seen.trend, self._run.powered_dps
-        window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(powered_dps / 6.0)), LONGEST_WINDOW_S)
         assert self._supplied_s is not None
-        from_s = max(self._supplied_s, self._run.ended.off_s if self._run.ended else -math.inf, trend.since_s)
-        if at_s - window_s < from_s:
-            return False
-        slope = trend.slope(at_s - window_s)
-        return slope is not None and abs(slope.speed_dps) + slope.error_dps < powered_dps
+        return self._run.stands(at_s, max(self._supplied_s, self._run.ended.off_s if self._run.ended else -math.inf))
 
     def _note_standing(self, at_s: float) -> None:
         self.looked = True
@@ -205,7 +191,7 @@ class OpeningWatch:
         left_deg = self._rest.left_deg(self._seen.trend.noise_deg)
         if left_deg is None:
             return
-        self._blind_s = 0.0
+        self._run.blind_s = 0.0
         if self._moved_from(left_deg):
             # It has left what held it, or its readings had stood still.
             self._run.turned_s = -math.inf
@@ -219,7 +205,7 @@ class OpeningWatch:
         assert rest.at_deg is not None
         assert rest.since_s is not None
         ended = self._run.ended if self._run.ended and self._run.ended.direction is way else None
-        shown = self._followed(ended) if ended else trust is Trust.UNSEEN and self._blind_s <= BLIND_S
+        shown = self._followed(ended) if ended else trust is Trust.UNSEEN and self._run.blind_s <= BLIND_S
         if trust is Trust.WELDED:
             # The supply may have been switched off by hand: only a run that was seen shows that it opens.
             shown = shown and ended is not None and ended.line is not None
@@ -235,12 +221,7 @@ class OpeningWatch:
             return not self._run_on.held_up
         if ended.off_s - ended.lasted_s <= self._run.turned_s < ended.off_s - self._run.unseen_s:
             return False  # in this run it turned at first, and something held it
-        return self._blind_s <= self._longest_blind_s
-
-    @property
-    def _longest_blind_s(self) -> float:
-        """A powered motor turns its axis in sight within this time."""
-        return max(BLIND_S, 1.5 * self._run.unseen_s)
+        return self._run.blind_s <= self._run.longest_blind_s
 
     @property
     def _doubts_after_s(self) -> float:
@@ -263,5 +244,5 @@ class OpeningWatch:
         if self._trusts.of(against) is Trust.DOUBTED:
             # It has been turned away from what may have held it.
             self._trusts.look_again(against)
-            self._blind_s, self._run.ended = 0.0, None
+            self._run.blind_s, self._run.ended = 0.0, None
             self._obstacles.forget(against)

@@ -23,6 +23,10 @@ MEASURED_AFTER_S = 0.6
 """A run as long as this shows the motor's speed; in a shorter one it is still gathering it."""
 STEADY_S = 1.5
 """After this time the motor runs at its full speed, and the run's last second shows it exactly."""
+BLIND_S = 1.0
+"""An axis may turn without being seen to turn, in short runs of this length in all."""
+SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
+"""An axis is watched for this long before it is taken to stand: longer where the readings scatter more."""
 HELD_UNSEEN_S = 0.3
 """An axis that was held for a shorter time at the end of a run seems to turn until the end."""
 EXTRAPOLATED_AFTER_S = 0.2
@@ -54,6 +58,8 @@ class SeenRun:
         self.ended: EndedRun | None
         self.turned_s = -math.inf
         """When the axis was last seen to turn in a run."""
+        self.blind_s = 0.0
+        """For how long relays were closed since the axis was last seen to turn."""
         self._fastest_dps: float
         """The fastest that the axis has turned in this run, for certain."""
         self._measured: dict[Direction, float] = {}
@@ -79,6 +85,11 @@ class SeenRun:
         """A powered motor may go unseen this long because of noise."""
         return max(HELD_UNSEEN_S, self._seen.trend.window_s(self.powered_dps / 3.5))
 
+    @property
+    def longest_blind_s(self) -> float:
+        """A powered motor turns its axis in sight within this time."""
+        return max(BLIND_S, 1.5 * self.unseen_s)
+
     def begin(self) -> None:
         self.line = self.ended = None
         self._fastest_dps = 0.0
@@ -89,9 +100,11 @@ class SeenRun:
         if self.line is not None:
             if abs(self.line.speed_dps) >= 2.0 * EXACT_ERRORS * self.line.error_dps:
                 self._fastest_dps = max(self._fastest_dps, abs(self.line.speed_dps) - 2.0 * self.line.error_dps)
-            self.turned_s = at_s
+            self.turned_s, self.blind_s = at_s, 0.0
 
     def end(self, now_s: float, direction: Direction, lasted_s: float, angle_deg: float) -> None:
+        if self.line is None:
+            self.blind_s += now_s - max(now_s - lasted_s, self.turned_s)
         line, self.line = self.line, None
         # In a run that went on without readings the motor may have gathered speed unseen.
         unseen_s = now_s - self.turned_s if now_s - self.turned_s > EXTRAPOLATED_AFTER_S else 0.0
@@ -109,6 +122,15 @@ class SeenRun:
         ended = self.ended
         if ended is not None and at_s - gap_s < ended.off_s and at_s <= ended.off_s + EXTRAPOLATED_AFTER_S:
             self.ended = replace(ended, angle_deg=angle_deg)
+
+    def stands(self, at_s: float, since_s: float) -> bool:
+        """Whether the readings since this moment show that no powered motor turns the axis."""
+        trend = self._seen.trend
+        window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(self.powered_dps / 6.0)), LONGEST_WINDOW_S)
+        if at_s - window_s < max(since_s, trend.since_s):
+            return False
+        slope = trend.slope(at_s - window_s)
+        return slope is not None and abs(slope.speed_dps) + slope.error_dps < self.powered_dps
 
     def _turning(self, at_s: float, since_s: float) -> Slope | None:
         """How fast the axis turns just now, for certain."""
