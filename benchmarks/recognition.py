@@ -8,13 +8,13 @@ of them: none to twenty, drawn for each moment. Prints how many streams it has r
 
 from __future__ import annotations
 
-import argparse
 import math
 import random
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 
+from benchmarks.numbers import numbers
 from rotator.exchange.orders import Aim
 from rotator.exchange.sources import Source
 from rotator.orbits import tle
@@ -129,9 +129,4 @@ def main(count: int, seed: int, satellites: int) -> None:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("streams", type=int, nargs="?", default=STREAMS)
-    parser.add_argument("seed", type=int, nargs="?", default=15)
-    parser.add_argument("satellites", type=int, nargs="?", default=SATELLITES, help="so many are known to the box")
-    asked = parser.parse_args()
-    main(asked.streams, asked.seed, asked.satellites)
+    main(*numbers(__doc__, streams=STREAMS, seed=15, satellites=SATELLITES))

@@ -1,4 +1,4 @@
-"""How soon a satellite is recognised after its rise: `python -m benchmarks.recognition_delay`.
+"""How soon a satellite is recognised: `python -m benchmarks.recognition_delay [PASSES [SEED [SATELLITES]]]`.
 
 Passes of satellites drawn at random over stations drawn at random, sent in whole degrees by a program whose clock is up
 to 5 s off. The station uses eight of the satellites that the box knows, and the one that is sent is among these, or it
@@ -7,12 +7,12 @@ is not. Rounded, and cut off. Moments count from the rise as the program sees it
 
 from __future__ import annotations
 
-import argparse
 import math
 import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from benchmarks.numbers import numbers
 from benchmarks.recognition import SATELLITES, catalogue
 from rotator.exchange.orders import Aim
 from rotator.exchange.sources import Source
@@ -104,9 +104,4 @@ def main(count: int, seed: int, satellites: int) -> None:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("passes", type=int, nargs="?", default=PASSES)
-    parser.add_argument("seed", type=int, nargs="?", default=15)
-    parser.add_argument("known", type=int, nargs="?", default=SATELLITES, help="number of satellites")
-    given = parser.parse_args()
-    main(given.passes, given.seed, given.known)
+    main(*numbers(__doc__, passes=PASSES, seed=15, satellites=SATELLITES))

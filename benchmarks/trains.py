@@ -1,21 +1,22 @@
 """How often a satellite is taken for its neighbour in a train: `python -m benchmarks.trains [STREAMS [SEED [KNOWN]]]`.
 
 A train is satellites of one launch on one orbit, seconds to minutes apart. The box knows one to eight of the train, but
-not the one that a program sends. The gaps are drawn from 1 s to 3 min, the orbits from real ones and ones like them,
-the clock of the program from 5 s behind to 5 s ahead; it rounds to whole degrees or tenths, or cuts off, and begins at
-the rise, up to a minute before it, or later. For each range of gaps: how many streams were named as a neighbour, how
-soon, how many of them until the set, and by how much the antenna was off meanwhile, beside the error of the stream.
+not the one that a program sends, and KNOWN other satellites. The gaps are drawn from 1 s to 3 min, the orbits from real
+ones and ones like them, the clock of the program from 5 s behind to 5 s ahead; it rounds to whole degrees or tenths, or
+cuts off, and begins at the rise, up to a minute before it, or later. For each range of gaps: how many streams were
+named as a neighbour, how soon, how many of them until the set, and by how much the antenna was off meanwhile, beside
+the error of the stream.
 """
 
 from __future__ import annotations
 
-import argparse
 import math
 import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
+from benchmarks.numbers import numbers
 from benchmarks.recognition import catalogue
 from benchmarks.recognition_delay import UNSTEADY_S, Rise, rises
 from rotator.exchange.orders import Aim
@@ -166,9 +167,4 @@ def main(count: int, seed: int, known: int) -> None:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("streams", type=int, nargs="?", default=STREAMS)
-    parser.add_argument("seed", type=int, nargs="?", default=15)
-    parser.add_argument("known", type=int, nargs="?", default=KNOWN, help="satellites that are no part of the train")
-    given = parser.parse_args()
-    main(given.streams, given.seed, given.known)
+    main(*numbers(__doc__, streams=STREAMS, seed=15, known=KNOWN))
