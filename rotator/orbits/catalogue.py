@@ -1,26 +1,24 @@
 """The known satellites, by the names that people use, from files of elements.
 
-Knows names, and which of several sets is the newest. `element_files` reads the files.
+Knows which of several sets is the newest. `names` knows what people say, `element_files` reads the files.
 """
 
 from __future__ import annotations
 
 import difflib
-import re
 from collections.abc import Sequence
 from operator import itemgetter
 from pathlib import Path
 
-from rotator.orbits import tle
 from rotator.orbits.element_files import FileContent, Read, files, read_again, read_file, stamp_of
 from rotator.orbits.elements import Elements
 from rotator.orbits.moments import DAY_S
+from rotator.orbits.names import meant, numbers_by_name, plain
 
 NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
 MOST_FAULTS = 3
 """Faults of files in one sentence."""
 STILL_READ = "the files of elements are still being read: try again in a moment"
-_PARENTHESES = re.compile(r"\(([^)]*)\)")
 _AHEAD_S = 10 * DAY_S
 """Days that an epoch may be ahead of its file: elements are written for today, or for some days ahead."""
 
@@ -83,10 +81,7 @@ class Catalogue:
         every = [(each, _rank(each, kept.written_s)) for kept in self._kept.values() for each in kept.sets]
         for each, _ in sorted(every, key=itemgetter(1), reverse=True):  # of equals the first
             self._sets.setdefault(each.catalogue_number, each)
-        self._names = {}
-        for number, each in self._sets.items():
-            for name in _spoken(each):
-                self._names.setdefault(name, set()).add(number)
+        self._names = numbers_by_name(self._sets.values())
         return True
 
     def has_news(self) -> bool:
@@ -95,11 +90,12 @@ class Catalogue:
         return any(stamp_of(path) != (kept.stamp if (kept := self._kept.get(path)) else None) for path in paths)
 
     def find(self, name: str, others: Sequence[str] = ()) -> Elements:
-        """By name, by the name in brackets, or by catalogue number; capitals, hyphens and blanks do not count.
+        """By name, by the name in brackets, or by catalogue number; capitals, hyphens, blanks and the zero of AO-07 do
+        not count.
 
         Raises Unknown, which tells the names that are near; `others`: names of targets that are no satellites.
         """
-        numbers = self._names.get(plain(name), set())
+        numbers = meant(name, self._names)
         if len(numbers) == 1:
             return self._sets[next(iter(numbers))]
         if numbers:
@@ -110,10 +106,10 @@ class Catalogue:
         shown = {each: self._sets[min(found)].name for each, found in self._names.items()}
         shown |= {plain(each): each for each in others}
         near = difflib.get_close_matches(plain(name), shown, n=3, cutoff=0.6)
-        meant = _perhaps(list(dict.fromkeys(shown[each] for each in near)))
+        perhaps = _perhaps(list(dict.fromkeys(shown[each] for each in near)))
         if not self._sets:
-            raise Unknown(f'there is no target "{name}"{meant or "."} {self.none_known}')
-        raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known{meant}')
+            raise Unknown(f'there is no target "{name}"{perhaps or "."} {self.none_known}')
+        raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known{perhaps}')
 
 
 def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
@@ -123,18 +119,6 @@ def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
     """
     ahead = elements.epoch_utc_s > written_s + _AHEAD_S
     return not ahead, -elements.epoch_utc_s if ahead else elements.epoch_utc_s
-
-
-def _spoken(elements: Elements) -> set[str]:
-    """The names that people may use for it. `OSCAR 7 (AO-7)`: whole, or one of the two. And the number, as in a TLE."""
-    names = {elements.name, *_PARENTHESES.findall(elements.name), _PARENTHESES.sub("", elements.name)}
-    numbers = {str(elements.catalogue_number), plain(tle.alpha5(elements.catalogue_number))}
-    return ({plain(name) for name in names} | numbers) - {""}
-
-
-def plain(name: str) -> str:
-    """The name without capitals, hyphens and blanks, for comparison."""
-    return "".join(each for each in name.casefold() if each.isalnum())
 
 
 def _perhaps(names: Sequence[str]) -> str:

@@ -9,10 +9,11 @@ import math
 import re
 from dataclasses import dataclass
 
-from rotator.orbits.catalogue import Catalogue, Unknown, plain
+from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.celestial import BODIES, RADIO_SOURCES, Body, RadioSource
 from rotator.orbits.earth import Site, direction
 from rotator.orbits.locator import distance_and_bearing, from_locator, long_path_km
+from rotator.orbits.names import plain
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight, Target
 

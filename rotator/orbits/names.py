@@ -1,0 +1,76 @@
+"""The names that people use for a satellite: `OSCAR 7 (AO-7)`, `ao7`, `AO-07`, `RS-44`, a catalogue number, Alpha-5.
+
+Knows how lists of elements write names, and the OSCAR numbers that they leave out. Does not know which satellites there
+are.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable
+
+from rotator.orbits import tle
+from rotator.orbits.elements import Elements
+
+OSCARS = {
+    28895: "CO-58",
+    40025: "EO-79",
+    40931: "IO-86",
+    41557: "LO-87",
+    42017: "EO-88",
+    43017: "AO-91",
+    43137: "AO-92",
+    43678: "PO-101",
+    43700: "QO-100",
+    44881: "TO-108",
+    44909: "RS-44",
+    47311: "AO-109",
+    50466: "HO-113",
+    53106: "IO-117",
+    60209: "MO-122",
+    61781: "AO-123",
+}
+"""By catalogue number: names of radio amateurs that public lists of elements leave out, now or at times."""
+_PARENTHESES = re.compile(r"\(([^)]*)\)")
+_TOGETHER = re.compile(r"\s+&\s+")
+_LEADING_ZERO = re.compile(r"(?<![0-9])0(?=[0-9])")
+
+
+def plain(name: str) -> str:
+    """The name without capitals, hyphens and blanks, for comparison."""
+    return "".join(each for each in name.casefold() if each.isalnum())
+
+
+def without_zero(name: str) -> str:
+    """The same, and without the zero before a number: AO-07 is AO-7."""
+    return _LEADING_ZERO.sub("", plain(name))
+
+
+def spoken(elements: Elements) -> set[str]:
+    """The plain names that people may use for it, and the number, as in a TLE.
+
+    `OSCAR 7 (AO-7)`: whole, or one of the two. `RS-44 & BREEZE-KM R/B`: whole, or one of the two that fly together.
+    """
+    bare = _PARENTHESES.sub("", elements.name)
+    names = {elements.name, bare, *_PARENTHESES.findall(elements.name), *_TOGETHER.split(bare)}
+    names.add(OSCARS.get(elements.catalogue_number, ""))
+    numbers = {str(elements.catalogue_number), plain(tle.alpha5(elements.catalogue_number))}
+    return ({plain(name) for name in names} | numbers) - {""}
+
+
+def numbers_by_name(sets: Iterable[Elements]) -> dict[str, set[int]]:
+    """The catalogue numbers of the satellites that have this plain name."""
+    found: dict[str, set[int]] = {}
+    for each in sets:
+        for name in spoken(each):
+            found.setdefault(name, set()).add(each.catalogue_number)
+    return found
+
+
+def meant(name: str, by_name: dict[str, set[int]]) -> Collection[int]:
+    """The catalogue numbers of the satellites that a person may mean. Where none has the very name, a zero before
+    a number does not count."""
+    if found := by_name.get(plain(name)):
+        return found
+    said = without_zero(name)
+    return {number for known, numbers in by_name.items() if without_zero(known) == said for number in numbers}
