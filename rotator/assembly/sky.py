@@ -37,16 +37,13 @@ def build_sky(station: StationTable) -> Sky | None:
 
 def build_catalogue(config: Config) -> Catalogue:
     """Files that cannot be read are among its faults."""
-    return Catalogue(config.sky.elements, to_come=_to_come(config))
+    return Catalogue(config.sky.elements, fetched=fetched_files(config), to_come=[uploaded_folder(config)])
 
 
 def build_later_catalogue(config: Config, read: Read = read_file) -> Catalogue:
     """The same, and nothing is read before its first `refresh`."""
-    return Catalogue(config.sky.elements, to_come=_to_come(config), read=read, later=True)
-
-
-def _to_come(config: Config) -> list[Path]:
-    return [*fetched_files(config), uploaded_folder(config)]
+    fetched, uploaded = fetched_files(config), [uploaded_folder(config)]
+    return Catalogue(config.sky.elements, fetched=fetched, to_come=uploaded, read=read, later=True)
 
 
 def uploaded_folder(config: Config) -> Path:

@@ -16,6 +16,7 @@ from rotator.orbits.moments import DAY_S
 from rotator.orbits.names import meant, numbers_by_name, plain
 
 NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
+NOT_FETCHED = "No satellites are known: none have been fetched yet; `rotator sky elements` tells why"
 MOST_FAULTS = 3
 """Faults of files in one sentence."""
 STILL_READ = "the files of elements are still being read: try again in a moment"
@@ -30,15 +31,22 @@ class Unknown(ValueError):  # noqa: N818 - a sentence about a name
 class Catalogue:
     """`places`: files, folders, or patterns such as `/var/lib/elements/*.json`.
 
-    `to_come`: files and folders that may not be there yet, or be empty. `later`: nothing is read before the first
-    `refresh`.
+    `fetched`, `to_come`: files and folders that may not be there yet, or be empty. `later`: nothing is read before the
+    first `refresh`.
     """
 
     def __init__(
-        self, places: Sequence[str], *, to_come: Sequence[Path] = (), read: Read = read_file, later: bool = False
+        self,
+        places: Sequence[str],
+        *,
+        fetched: Sequence[Path] = (),
+        to_come: Sequence[Path] = (),
+        read: Read = read_file,
+        later: bool = False,
     ) -> None:
         self._places = tuple(places)
-        self._to_come = tuple(to_come)
+        self._fetches = bool(fetched)
+        self._to_come = (*fetched, *to_come)
         self._read_file = read
         self._has_looked = False
         self._kept: dict[Path, FileContent] = {}
@@ -56,7 +64,9 @@ class Catalogue:
     @property
     def none_known(self) -> str:
         """A sentence for a person who names a satellite while none is known: what to write, or what is wrong."""
-        return f"No satellites are known: {'; '.join(self.faults[:MOST_FAULTS])}" if self.faults else NO_SATELLITES
+        if self.faults:
+            return f"No satellites are known: {'; '.join(self.faults[:MOST_FAULTS])}"
+        return NOT_FETCHED if self._fetches else NO_SATELLITES
 
     @property
     def by_file(self) -> dict[Path, tuple[Elements, ...]]:

@@ -50,13 +50,15 @@ def read_table(text: str, name: str, place: str, *, turns: bool = False) -> Time
         raise TableError(f"{place}: cannot be read: {fault}. {FORM}") from fault
     rows: list[Row] = []
     numbers: list[int] = []
-    before = ""
+    before, in_utc = "", False
     for number, values in table:
         if not "".join(values).strip():
             continue
         row = _row(f"{place}:{number}", header, values, turns=turns)
         moment = values[header.index("t")].strip()
-        if rows and (row[0] >= SINCE_1970_S) is not (rows[-1][0] >= SINCE_1970_S):
+        # A computer without the right time writes a moment in 1970: that is no number of seconds from now.
+        utc = row[0] >= SINCE_1970_S or _UTC.fullmatch(moment) is not None
+        if rows and utc is not in_utc:
             raise TableError(
                 f"{place}:{number}: t is {moment}, and {before} in the row before: write each t in seconds, or each in "
                 "UTC"
@@ -74,7 +76,7 @@ def read_table(text: str, name: str, place: str, *, turns: bool = False) -> Time
             )
         rows.append(row)
         numbers.append(number)
-        before = moment
+        before, in_utc = moment, utc
     if len(rows) < 2:
         raise TableError(f"{place}: a pass needs two rows or more. {FORM}")
     lasts_s = rows[-1][0] - rows[0][0]
@@ -82,7 +84,7 @@ def read_table(text: str, name: str, place: str, *, turns: bool = False) -> Time
         raise TableError(f"{place}: lasts {lasts_s / 3600:.0f} h; t is in seconds, and a day is the most")
     if not names_turns(rows):
         rows = [(t_s, azimuth_deg % 360.0, elevation_deg) for t_s, azimuth_deg, elevation_deg in rows]
-    return TimedTable(name, tuple(rows), tuple(numbers), utc=rows[0][0] >= SINCE_1970_S)
+    return TimedTable(name, tuple(rows), tuple(numbers), utc=in_utc)
 
 
 def _separator(line: str) -> str:

@@ -20,7 +20,7 @@ from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
 from rotator.store.paired import Paired
-from rotator.web import assets, openapi, scene_schema
+from rotator.web import assets, openapi, scene_schema, tables
 from rotator.web.api_page import api_page
 from rotator.web.connections import Connections, machine
 from rotator.web.doors import Doors
@@ -75,6 +75,7 @@ class Api:
             *self._reads(),
             *PairingApi(self._entrance, self._parts.pairings, self._parts.utc).routes(),
             *(openapi.order(each, self._order(each)) for each in METHODS),
+            tables.route(self._entrance, self._as, self._parts.scene.said),
             *(route for group in self._parts.groups for route in group(self._entrance)),
         ]
 

@@ -17,6 +17,7 @@ ANY: Schema = {}
 ZIP: Schema = {"contentMediaType": "application/zip"}
 SVG: Schema = {"contentMediaType": "image/svg+xml"}
 ELEMENTS: Schema = {"contentMediaType": "text/plain"}
+TABLE: Schema = {"contentMediaType": "text/csv"}
 """Files, not JSON."""
 
 

@@ -72,6 +72,16 @@ def test_without_elements_the_key_is_named() -> None:
         Catalogue([]).find("iss")
 
 
+def test_where_nothing_has_been_fetched_yet_it_tells_where_the_reason_stands(tmp_path: Path) -> None:
+    fetched = tmp_path / "fetched.json"
+    with pytest.raises(Unknown, match="none have been fetched yet; `rotator sky elements` tells why"):
+        Catalogue([], fetched=[fetched]).find("iss")
+    with pytest.raises(Unknown, match="no such file"):
+        Catalogue([str(tmp_path / "gone.tle")], fetched=[fetched]).find("iss")
+    fetched.write_text(ISS, encoding="utf-8")
+    assert Catalogue([], fetched=[fetched]).find("iss").catalogue_number == 25544
+
+
 def test_the_newest_set_of_a_satellite_counts(tmp_path: Path) -> None:
     for name, message in (("a.json", MESSAGE | NEWER), ("b.json", MESSAGE)):
         (tmp_path / name).write_text(json.dumps([message]), encoding="utf-8")

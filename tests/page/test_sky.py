@@ -89,6 +89,23 @@ def test_a_request_that_is_refused_is_told_as_that_while_the_tracking_goes_on(
     assert page.get_by_text("Tracking has").count() == 0
 
 
+def test_a_table_of_directions_is_sent_and_tracked_and_a_mistake_in_it_is_told(
+    start: Start, visit: Visit, tmp_path: Path
+) -> None:
+    """The box needs no place for it."""
+    good, bad = tmp_path / "good.csv", tmp_path / "bad.csv"
+    good.write_text("t,az,el\n60,20,5\n100,50,25\n", encoding="utf-8")
+    bad.write_text("t,az,el\n60,20,5\n50,50,25\n", encoding="utf-8")
+    page = visit(start())
+    pair(page)
+    page.get_by_role("link", name="Sky").click()
+    page.get_by_label("Track a table of directions").set_input_files(bad)
+    page.get_by_text("bad.csv:3: t must rise from row to row: 50 comes after 60").wait_for()
+    page.get_by_label("Track a table of directions").set_input_files(good)
+    page.get_by_text("Tracks good").wait_for(timeout=COMPUTED_MS)
+    assert violations(page) == []
+
+
 def without_target(route: WebSocketRoute) -> None:
     """What the box sends, but for the target that it tracks."""
     box = route.connect_to_server()

@@ -1,6 +1,6 @@
 // The sky of the next day: what to track by a press, which satellite rises when and how high, and how far its elements
 // may be off.
-import { boxTime, post, read } from "/box.js";
+import { boxTime, post, read, send } from "/box.js";
 import { Elements } from "/elements.js";
 import { Flown } from "/flown.js";
 import { Track } from "/hand.js";
@@ -67,6 +67,11 @@ export function Passes({ now: box, station, hello, say }) {
     return () => clearInterval(tick);
   }, []);
   const track = (target) => act(post("track", { target }), say), tracks = box.status.tracks;
+  const trackTable = (event) => {
+    const [file] = event.target.files;
+    event.target.value = "";
+    if (file) act(send(`track-table?name=${encodeURIComponent(file.name)}`, file), say);
+  };
   const shown = (passes ?? []).filter((pass) => pass.max_el_deg >= (number(leastDeg) ?? 0) && !(pass.los && new Date(pass.los) < now));
   return html`<div class="views"><section class="log"><h2>Track</h2>
     <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking.split(":")[0]] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}</p>
@@ -74,7 +79,8 @@ export function Passes({ now: box, station, hello, say }) {
       ${BODIES.map((name) => html`<button type="button" aria-pressed=${tracks?.name === name} onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
       <button type="button" onClick=${() => track("plan")}>Follow the plan</button>
       <button type="button" onClick=${() => track("off")}>Track nothing</button></div>
-      <${Track} now=${box} known=${station.where} say=${say} />`}
+      <${Track} now=${box} known=${station.where} say=${say} />
+      <label class="file">Track a table of directions: CSV with t,az,el<input type="file" onChange=${trackTable} accept=".csv,.txt" /></label>`}
     </section>
     <section class="log"><h2>The plan</h2>
       <${Followed} hello=${hello} paired=${paired} changed=${again} say=${say} />
