@@ -6,11 +6,11 @@ Knows the plan. Does not decide anything.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from rotator.orbits.passes import Pass
 from rotator.tracking.chain import Part
-from rotator.tracking.courses import SeenPass
+from rotator.tracking.courses import Course, SeenPass
 from rotator.tracking.planned import SPARE_S, Followed, PlannedPass
 
 NEAR_S = 300.0
@@ -55,11 +55,14 @@ def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
     return f"{rival.name} is {'up for longer' if _lasts_s(rival.found) > _lasts_s(one.found) else 'worth more'}"
 
 
-def in_part(part: Part, before: str | None, after: str | None) -> str:
-    """Names the flights that take its beginning or its end; empty: nothing of the pass is lost."""
-    gained, priority = part.course.gained, part.one.followed.priority
-    late = gained[part.first] > LITTLE * priority
-    early = gained[-1] - gained[part.last] > LITTLE * priority
+def in_part(part: Part, ways: Iterable[Course], before: str | None, after: str | None) -> str:
+    """Names the flights that take its beginning or its end; empty: nothing of the pass is lost.
+
+    `ways`: every course of the pass. The chosen one may have turned no further because the next flight comes soon.
+    """
+    little = LITTLE * part.one.followed.priority
+    late = any(way.gained[part.first] > little for way in ways)
+    early = any(way.gained[-1] - way.gained[part.last] > little for way in ways)
     cause = f"after {before}" if before else "the antenna has to turn there first"
     words = [f"begins late: {cause}"] if late else []
     return "; ".join([*words, f"ends early: for {after}"] if early and after else words)

@@ -7,7 +7,7 @@ clock: time is an argument, in seconds since 1970 (UTC).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from rotator.control.sky.flight_plan import Antenna
@@ -44,7 +44,8 @@ def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, unti
             else:
                 planned.append(PlannedPass(found, each.priority, None, unseen(one)))
     parts = widened(best_chain(flyable, antenna.stands_deg, travel, from_s), antenna.stands_deg, travel, from_s)
-    flown = list(_flights(parts, travel, from_s))
+    ways_of = {id(one): ways for one, ways in flyable}
+    flown = list(_flights(parts, ways_of, travel, from_s))
     chosen = {id(part.one) for part in parts}
     for one, _ in flyable:
         if id(one) not in chosen:
@@ -76,11 +77,15 @@ def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: fl
     return found
 
 
-def _flights(parts: Sequence[Part], travel: Travel, from_s: float) -> Iterator[PlannedPass]:
+def _flights(
+    parts: Sequence[Part], ways_of: Mapping[int, Sequence[Course]], travel: Travel, from_s: float
+) -> Iterator[PlannedPass]:
+    """`ways_of`: the courses of each pass, by its identity."""
     free_s = from_s
     for index, part in enumerate(parts):
         before = parts[index - 1].one.found.name if index else None
         after = parts[index + 1].one.found.name if index + 1 < len(parts) else None
+        ways = ways_of[id(part.one)]
         flight = Flight(
             # Early enough from any place: a person may have moved the antenna since the last pass.
             set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s - START_S),
@@ -90,7 +95,7 @@ def _flights(parts: Sequence[Part], travel: Travel, from_s: float) -> Iterator[P
             over_the_top=part.course.over[part.first],
             lost_s=part.course.lost_s[part.last] - part.course.lost_s[part.first],
         )
-        yield PlannedPass(part.one.found, part.one.followed.priority, flight, in_part(part, before, after))
+        yield PlannedPass(part.one.found, part.one.followed.priority, flight, in_part(part, ways, before, after))
         free_s = part.end_s
 
 

@@ -195,6 +195,16 @@ def test_a_short_overlap_costs_the_end_of_one_or_the_beginning_of_the_other() ->
     assert first.end_s - first.begin_s + second.end_s - second.begin_s > 1200 - 120 - 15 - 20
 
 
+@pytest.mark.parametrize("name", ["360", "with a chimney"])
+def test_in_a_crowd_each_flight_that_leaves_something_out_has_a_reason(name: str) -> None:
+    mount = MOUNTS[name]
+    followed = [Followed(each, 1.0 + number % 3) for number, each in enumerate(satellites(12))]
+    for each, flight in flights(schedule(followed, antenna(mount), EPOCH_S, EPOCH_S + DAY_S / 2)):
+        assert each.found.los_s is not None
+        missed = [at_s for at_s in seconds_between(flight.end_s, each.found.los_s, 5.0) if flight.end_s < at_s]
+        assert each.reason or sum(in_sight(mount, each.name, at_s) for at_s in missed) < 3
+
+
 @pytest.mark.parametrize(
     ("followed", "reason"),
     [
