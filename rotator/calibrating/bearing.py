@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hw.ports import CompassCalibration
-from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 
-FULL_TURN_DEG = 360.0
 UNCALIBRATED = CompassCalibration()
 LEAST_SAMPLES = 30
 LEAST_MAGNETOMETER = 2

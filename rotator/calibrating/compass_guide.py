@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, CompassCalibration
 from rotator.calibrating.axis_state import position_unknown
-from rotator.calibrating.bearing import FULL_TURN_DEG, UNCALIBRATED, CompassReading, HeadingSample
+from rotator.calibrating.bearing import UNCALIBRATED, CompassReading, HeadingSample
 from rotator.calibrating.entries import Entry, Press, StopNow
 from rotator.calibrating.facts import NorthFacts
 from rotator.calibrating.guide import CONFIRM_S, ORDER_TAKEN_S, Abandoned, Guide, Steps
-from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 from rotator.exchange.orders import Aim, Confirm, Jog, Stop
 from rotator.exchange.status import AxisStatus, Status
 

@@ -10,7 +10,6 @@ from collections.abc import Generator
 
 from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import (
-    FULL_TURN_DEG,
     LEAST_MAGNETOMETER,
     North,
     NorthUncertain,
@@ -23,7 +22,7 @@ from rotator.calibrating.entries import NUMBER_FORM, Enter, No, Number, Yes
 from rotator.calibrating.facts import NorthFacts
 from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
 from rotator.calibrating.results import AngleConfirmed, NorthFound
-from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 
 RAISED_EVERY = 2
 """In a sweep the antenna is raised at every second place."""

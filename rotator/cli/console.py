@@ -17,6 +17,7 @@ from rotator.cli.agree import agree
 from rotator.cli.box import OK, BoxStatus, Refused, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.lines import say
+from rotator.control.refused import no_relay_in_doubt
 
 LOOK_S = 0.1
 CONFIRMED_S = 5.0
@@ -94,7 +95,7 @@ def relays_checked(path: Path | None, axis: str, *, yes: bool) -> None:
         if now["moving"]:
             raise Refused(f"{axis} turns: first `rotator stop`, then look at its relays")
         if not now["relays_in_doubt"]:
-            raise Refused(f"nothing is in doubt about the relays of {axis}")
+            raise Refused(no_relay_in_doubt(axis))
         agree(f"With both relays of {axis} switched off: does its motor have no current, from either of them?", yes=yes)
         box.order(f"relays-checked {axis}")
         failed = faults(box.status(), (axis,))

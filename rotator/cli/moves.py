@@ -21,6 +21,9 @@ from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
+from rotator.control.refused import needs_no_homing
+from rotator.control.sky.angles import ZENITH_DEG
+from rotator.exchange.sources import CONSOLE
 from rotator.exchange.spoken import sender
 
 LOOK_S = 0.2
@@ -31,11 +34,8 @@ BEGINS_LOOKS = 20
 """A jog begins after at most this many looks: the box first watches the axis stand, and a relay may have to wait."""
 HOMING_LOOKS = 15
 """An axis that homes pauses within its homing, for less than so many looks."""
-ZENITH_DEG = 90.0
 SAME_DEG = 1.0
 """An end of the range may be off by so much, by the offsets of the file, without a word."""
-CONSOLE = "console"
-"""How the name of a console's user begins in a status."""
 
 
 def point(path: Path | None, azimuth_deg: float, elevation_deg: float, *, wait: bool) -> None:
@@ -76,7 +76,7 @@ def home(path: Path | None, axis: str, *, yes: bool) -> None:
     with RunningBox(path) as box:
         before = box.status()
         if before[axis]["angle_source"] != "counted":
-            raise Refused(f"{axis} knows its angle: it needs no homing")
+            raise Refused(needs_no_homing(axis))
         agree(f"Watch the antenna: {axis} turns to its low end. Ctrl-C stops it. Begin?", yes=yes)
         with _stops_unless_done(path):
             box.order(f"home {axis}")

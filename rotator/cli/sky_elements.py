@@ -24,7 +24,6 @@ NOTHING = (
     "the configuration names no elements: write elements = [files] or fetch = [addresses] below [sky], or send a file "
     "by the page"
 )
-DAY_S = 86_400.0
 
 
 def show_elements(path: Path | None, *, as_json: bool) -> None:

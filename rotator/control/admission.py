@@ -7,6 +7,7 @@ stream is silenced; it is answered like any other. The controller checks again, 
 from __future__ import annotations
 
 from hw.ports import AngleSource, Axis
+from rotator.control.refused import measures_its_angle, needs_no_homing, no_relay_in_doubt, turns_while_calibrated
 from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.exchange.flight_order import Fly
@@ -30,17 +31,17 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
         case Park() | Fly():
             return _uncalibrated(order, status)
         case Calibrate(axis) if status.moving:
-            return Refusal(f"{axis.value} cannot be calibrated while the antenna moves")
+            return Refusal(turns_while_calibrated(axis.value))
         case Home(axis) if status.axis(axis).source is not AngleSource.COUNTED:
-            return Refusal(f"{axis.value} knows its angle: it needs no homing")
+            return Refusal(needs_no_homing(axis.value))
         case Confirm(axis) if not status.axis(axis).confirmable:
-            return Refusal(f"{axis.value} measures its angle: there is nothing to confirm")
+            return Refusal(measures_its_angle(axis.value))
         case Confirm(axis) if status.axis(axis).moving:
             return Refusal(f"{axis.value} turns: stop it (`rotator stop`), and look where it points when it stands")
         case RelaysChecked(axis) if status.axis(axis).moving:
             return Refusal(f"{axis.value} turns: its relays can be looked at when it stands; `rotator stop` stops it")
         case RelaysChecked(axis) if not status.axis(axis).relays_in_doubt:
-            return Refusal(f"nothing is in doubt about the relays of {axis.value}")
+            return Refusal(no_relay_in_doubt(axis.value))
         case _:
             return None
 

@@ -16,12 +16,10 @@ from rotator.control.axis.reach import START_S
 from rotator.control.commands import HOLD, Command, Feed, Hold, Run, Steer, Unfed
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import UNKNOWN, Box, kept, may_sweep
-from rotator.exchange.faults import Notice
+from rotator.exchange.faults import NOTICED_FOR_S, Notice
 
 GOING_ON_PERIODS = 1.5
 """A running motor may run on for at least this many cycles: the next command comes after one."""
-NOTICED_FOR_S = 3.0
-"""A notice stays this long after its cause, so that it can be read."""
 
 
 class Fence:

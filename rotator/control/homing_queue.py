@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
-from rotator.control.refused import Refused
+from rotator.control.refused import Refused, needs_no_homing
 from rotator.exchange.sources import Source
 
 
@@ -34,7 +34,7 @@ class HomingQueue:
     def ask(self, axis: Axis, source: Source) -> None:
         """Raises Refused where the axis has no end stop to find."""
         if axis not in self._axes:
-            raise Refused(f"{axis.value} knows its angle: it needs no homing")
+            raise Refused(needs_no_homing(axis.value))
         self._asked_by = source
         self._waiting.append(axis)
 

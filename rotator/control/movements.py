@@ -14,7 +14,7 @@ from rotator.control.axis.port import ControlledAxis
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.idle_park import IdlePark
 from rotator.control.jogs import Jogs
-from rotator.control.refused import Refused
+from rotator.control.refused import Refused, measures_its_angle, turns_while_calibrated
 from rotator.control.settings import Settings
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
@@ -118,7 +118,7 @@ class Movements:
     def calibrate_end(self, axis: Axis, now_s: float, *, high_end: bool) -> None:
         """The axis stands at an end of its range. Raises Refused."""
         if any(control.moving(now_s) for control in self._axes.values()):
-            raise Refused(f"{axis.value} is not calibrated while the antenna moves")
+            raise Refused(turns_while_calibrated(axis.value))
         self._axes[axis].calibrate_end(high_end=high_end)
         self._axes[axis].halt()
         self._aiming.forget((axis,))
@@ -126,7 +126,7 @@ class Movements:
     def confirm(self, axis: Axis) -> None:
         """A person has said at which angle the axis stands. Raises Refused."""
         if not self._axes[axis].confirmable:
-            raise Refused(f"{axis.value} measures its angle: there is nothing to confirm")
+            raise Refused(measures_its_angle(axis.value))
         self._halt((axis,))
         self._axes[axis].confirmed()
 

@@ -1,6 +1,7 @@
 """An order that cannot be carried out, with the reason as a sentence for the log.
 
-Knows the reason. Knows neither the order nor its sender.
+Knows the reasons that are given in more than one place: before an order is taken, and when it is to be carried out.
+Knows neither the order nor its sender.
 """
 
 from __future__ import annotations
@@ -8,3 +9,19 @@ from __future__ import annotations
 
 class Refused(ValueError):  # noqa: N818 - a sentence for a person; the program has not failed
     """The order is not carried out. Except where a method says otherwise, everything stays as it was."""
+
+
+def needs_no_homing(axis: str) -> str:
+    return f"{axis} knows its angle: it needs no homing"
+
+
+def measures_its_angle(axis: str) -> str:
+    return f"{axis} measures its angle: there is nothing to confirm"
+
+
+def turns_while_calibrated(axis: str) -> str:
+    return f"{axis} cannot be calibrated while the antenna moves"
+
+
+def no_relay_in_doubt(axis: str) -> str:
+    return f"nothing is in doubt about the relays of {axis}"

@@ -222,6 +222,10 @@ class Missing(Enum):
         self.lcd = lcd
 
 
+NOTICED_FOR_S = 3.0
+"""A notice stays this long after its cause, so that it can be read."""
+
+
 @dataclass(frozen=True, slots=True)
 class Notice:
     """Something that a person should know of an axis though it stops nothing."""

@@ -12,6 +12,7 @@ from dataclasses import replace
 from hw.ports import Axis
 from rotator.config.station import NO_PLACE
 from rotator.control.rights import Deed, State, deed_of, hindrance, holds, mode_words
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.control.sky.timed_table import TimedTable
 from rotator.exchange.orders import Aim, GiveBack, Home, Jog, Mode, Order, RelaysChecked, Release, SetMode, Stop, Take
 from rotator.exchange.sources import Source
@@ -21,7 +22,6 @@ from rotator.protocols.session import Box, Tracking
 
 SHOWN_S = 0.3
 """So long after an order the status may not show it yet."""
-FULL_TURN_DEG, ZENITH_DEG = 360.0, 90.0
 
 
 class Operating:

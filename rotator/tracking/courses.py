@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
+from rotator.control.sky.angles import turn_deg
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.route import STEP_S, Flown, Way
 from rotator.control.sky.sectors import Place
@@ -110,8 +111,7 @@ def _reaching(one: SeenPass, mount: Mount) -> list[Way]:
     """The ways that lie at least partly within the range."""
     turned_deg = list(
         accumulate(
-            ((after[0] - before[0] + 180.0) % 360.0 - 180.0)
-            for before, after in zip(one.directions, one.directions[1:], strict=False)
+            turn_deg(before[0], after[0]) for before, after in zip(one.directions, one.directions[1:], strict=False)
         )
     )
     least_deg, most_deg = min(0.0, *turned_deg), max(0.0, *turned_deg)

@@ -10,12 +10,12 @@ from collections.abc import Callable
 from math import isnan, nan
 from typing import Any
 
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.exchange.status import AxisStatus, Status
 from rotator.views.sky_plot import aimed_at, off_deg
 
 KEPT_S, EVERY_S = 600, 1.0
 """Seconds that the strip chart and the trail go back, and seconds between two points."""
-ZENITH_DEG, TURN_DEG = 90.0, 360.0
 
 
 class Past:
@@ -56,7 +56,7 @@ def _aims(status: Status) -> tuple[float | None, float | None]:
     azimuth_deg, elevation_deg = there
     if elevation.points_deg > ZENITH_DEG:
         azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
-    return azimuth_deg + TURN_DEG * round((azimuth.points_deg - azimuth_deg) / TURN_DEG), elevation_deg
+    return azimuth_deg + FULL_TURN_DEG * round((azimuth.points_deg - azimuth_deg) / FULL_TURN_DEG), elevation_deg
 
 
 def _number(number: float | None) -> float:

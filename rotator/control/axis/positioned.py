@@ -23,7 +23,7 @@ from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
 from rotator.control.commands import HOLD, Command, Decision, Steer
-from rotator.control.refused import Refused
+from rotator.control.refused import Refused, needs_no_homing
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
@@ -78,7 +78,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         return self.driven
 
     def home(self) -> None:
-        raise Refused(f"{self._settings.axis.value} knows its angle: it needs no homing")
+        raise Refused(needs_no_homing(self._settings.axis.value))
 
     def calibrate_end(self, *, high_end: bool) -> None:
         raise Refused(f"{self._settings.axis.value} knows its own angles: it needs no ends")

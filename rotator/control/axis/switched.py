@@ -24,7 +24,7 @@ from rotator.control.axis.switched_faults import SwitchedFaults
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.axis.vain_presses import IN_VAIN
 from rotator.control.commands import UNFED, Command, Decision, Feed, Run, Steer
-from rotator.control.refused import Refused
+from rotator.control.refused import Refused, needs_no_homing
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
@@ -100,7 +100,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
 
     def home(self) -> None:
         if self._settings.homing is None:
-            raise Refused(f"{self._settings.axis.value} knows its angle: it needs no homing")
+            raise Refused(needs_no_homing(self._settings.axis.value))
         self._goal = HomeGoal(Homing(self._settings.homing))
 
     def see(self, reading: Reading, now_s: float) -> None:

@@ -15,7 +15,7 @@ from rotator.control.axis.relay_faults import CUT_BY_HAND, accusation, unstoppab
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.trend import Slope
-from rotator.exchange.faults import Fault, FaultKind, Notice
+from rotator.exchange.faults import NOTICED_FOR_S, Fault, FaultKind, Notice
 from rotator.exchange.motor import Trust
 
 TURNING_WINDOW = SpeedWindow(1.0, 4.0, 4.0)
@@ -26,8 +26,6 @@ NOTICED_SHARE = 0.2
 TURNS = Notice("turning with no relay on: wind, or a hand at the control box's switch", "TURNS BY SELF")
 TURNS_ERRORS = 4.0
 STILL_FAST_S = 0.4
-NOTICED_FOR_S = 3.0
-"""A notice stays this long after its cause, so that it can be read."""
 CUT_IN_S = 3.0
 """If it still turns this long after its supply was cut, this box cannot stop it."""
 

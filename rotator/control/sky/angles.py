@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 ZENITH_DEG = 90.0
-FULL_TURN_DEG = 360.0
+HALF_TURN_DEG, FULL_TURN_DEG = 180.0, 360.0
 
 Coordinates = tuple[float | None, float | None]
 """Azimuth and elevation in degrees; None: not known, or not ordered."""

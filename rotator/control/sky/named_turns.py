@@ -12,7 +12,14 @@ from collections.abc import Sequence
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.control.sky.known_path import Row
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.control.sky.timed_table import SMOOTH_S, TimedTable
+from rotator.control.sky.timed_table import (
+    SMOOTH_S,
+    TimedTable,
+    above_elevation,
+    beyond_azimuth,
+    in_sector,
+    place_of,
+)
 
 
 def names_turns(rows: Sequence[Row]) -> bool:
@@ -60,20 +67,19 @@ def _hermite(a_deg: float, b_deg: float, leaves_deg: float, arrives_deg: float, 
 def axis_rows(table: TimedTable, points: Sequence[Row], mount: Mount) -> tuple[Row, ...] | str:
     """The axis angles of each point; a sentence if the antenna cannot be there."""
     found: list[Row] = []
-    for at_s, azimuth_deg, elevation_deg in points:
-        where = f"line {table.line(at_s)}: azimuth {azimuth_deg:.1f}°, elevation {elevation_deg:.1f}°"
+    for point in points:
+        where, (at_s, azimuth_deg, elevation_deg) = place_of(table, point), point
         if elevation_deg > mount.elevation.max_deg + 1e-6:
-            return f"{where} is above the rotor's elevation range, which ends at {mount.elevation.max_deg:g}°"
+            return above_elevation(where, mount)
         try:
             axis_az_deg, axis_el_deg = mount.axis_angles(azimuth_deg, elevation_deg, azimuth_deg)
         except Unreachable:
             axis_az_deg, axis_el_deg = math.inf, 0.0
         assert axis_el_deg is not None, "an order with both angles gives both"
         if abs(axis_az_deg - azimuth_deg) > FULL_TURN_DEG / 2:
-            limits = f"{mount.azimuth.min_deg:g}° to {mount.azimuth.max_deg:g}°"
-            return f"{where} is outside the rotor's azimuth range of {limits}, on the turn that the table names"
+            return f"{beyond_azimuth(where, mount)}, on the turn that the table names"
         if mount.inside_deg(axis_az_deg, axis_el_deg) > 0:
-            return f"{where} is in a forbidden sector, or in its margin"
+            return in_sector(where)
         found.append((at_s, axis_az_deg, axis_el_deg))
     return tuple(found)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG, great_circle_deg
+from rotator.control.sky.angles import FULL_TURN_DEG, HALF_TURN_DEG, ZENITH_DEG, great_circle_deg
 from rotator.control.sky.goal import AimGoal, Goals
 from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import Mount, Unreachable
@@ -24,7 +24,6 @@ PLAN_EVERY_S = 0.5
 ROUTE_EVERY_S = 3.0
 SURE_AFTER_S = 45.0
 """A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
-HALF_TURN_DEG = 180.0
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
 LEVEL_DEG, LEAVES_DEG = 1.0, 10.0

@@ -15,9 +15,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rotator.control.sky.angles import ZENITH_DEG, Vector, direction_of, turn_deg, unit
+from rotator.control.sky.angles import HALF_TURN_DEG, ZENITH_DEG, Vector, direction_of, turn_deg, unit
 
-HALF_TURN_DEG = 180.0
 _ON_THE_AXIS = 1e-12
 """A direction this near to the azimuth axis has no azimuth."""
 

@@ -77,20 +77,38 @@ def _hermite(ends: tuple[Vector, Vector], speeds: tuple[Vector, Vector], share: 
     return east, north, up
 
 
+def place_of(table: TimedTable, row: Row) -> str:
+    """The line and the angles of a row, as the beginning of a sentence."""
+    at_s, azimuth_deg, elevation_deg = row
+    return f"line {table.line(at_s)}: azimuth {azimuth_deg:.1f}°, elevation {elevation_deg:.1f}°"
+
+
+def beyond_azimuth(where: str, mount: Mount) -> str:
+    limits = f"{mount.azimuth.min_deg:g}° to {mount.azimuth.max_deg:g}°"
+    return f"{where} is outside the rotor's azimuth range of {limits}"
+
+
+def above_elevation(where: str, mount: Mount) -> str:
+    return f"{where} is above the rotor's elevation range, which ends at {mount.elevation.max_deg:g}°"
+
+
+def in_sector(where: str) -> str:
+    return f"{where} is in a forbidden sector, or in its margin"
+
+
 def hindrance(table: TimedTable, path: Sequence[Row], mount: Mount) -> str:
     """Why the antenna cannot point where the table wants it; empty: it can. `path`: the table, smooth.
 
     Below the horizon, and behind trees and roofs, elevation rests as low as it may.
     """
-    for at_s, azimuth_deg, elevation_deg in path:
-        where = f"line {table.line(at_s)}: azimuth {azimuth_deg:.1f}°, elevation {elevation_deg:.1f}°"
+    for row in path:
+        where, (_, azimuth_deg, elevation_deg) = place_of(table, row), row
         places = mount.places(azimuth_deg, elevation_deg)
         if not places:
-            limits = f"{mount.azimuth.min_deg:g}° to {mount.azimuth.max_deg:g}°"
-            return f"{where} is outside the rotor's azimuth range of {limits}"
+            return beyond_azimuth(where, mount)
         high = [place for place in places if mount.pointed(*place[:2])[1] >= elevation_deg - 0.5 or place[2]]
         if not high:
-            return f"{where} is above the rotor's elevation range, which ends at {mount.elevation.max_deg:g}°"
+            return above_elevation(where, mount)
         if all(mount.inside_deg(*place[:2]) > 0 for place in high):
-            return f"{where} is in a forbidden sector, or in its margin"
+            return in_sector(where)
     return ""

@@ -225,7 +225,7 @@ def test_while_anything_moves_it_keeps_its_calibration(desk: Any) -> None:
     for order in (Stop(), Calibrate(AZ, high_end=True)):  # stopped, but still coasting
         desk.step(order)
     assert desk.status.azimuth.calibration == before
-    assert desk.controller.troubles == ["azimuth is not calibrated while the antenna moves"]
+    assert desk.controller.troubles == ["azimuth cannot be calibrated while the antenna moves"]
 
 
 def test_a_calibration_forgets_where_the_axis_was_to_point(desk: Any) -> None:
