@@ -47,7 +47,7 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
         if state.startswith("refused: "):
             raise CommandFailed(f"{state.removeprefix('refused: ')}; what was tracked goes on")
         if state == "off":
-            return click.echo("The antenna goes there, and stays.")
+            return click.echo(_stays(words))
         tracks = _tracks(box)
     if tracks is None:
         raise CommandFailed("the box has a plan, and the antenna did not take it up: `rotator where` tells more")
@@ -105,6 +105,14 @@ def _planned(box: RunningBox) -> str:
             return state
         time.sleep(LOOK_S)
     raise CommandFailed(f"the box has made no plan within {PATIENCE_S:g} s; `rotator track off` gives up")
+
+
+def _stays(words: str) -> str:
+    """Of a direction that does not move. A name such as FO29 is a locator where no satellite of that name is known."""
+    from rotator.orbits.targets import is_locator  # noqa: PLC0415 - no other answer needs it
+
+    there = f"points at the locator {words.upper()}" if is_locator(words) else "goes there"
+    return f"The antenna {there}, and stays."
 
 
 def _tracks(box: RunningBox) -> dict[str, Any] | None:

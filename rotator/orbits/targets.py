@@ -83,11 +83,17 @@ def _direction(words: str) -> Sight | None:
     return Sight(azimuth_deg % 360.0, elevation_deg, math.inf)
 
 
+def is_locator(words: str) -> bool:
+    """Whether the words have the form of a locator, perhaps with a path: `JN58td long`. So has `FO29`, a satellite."""
+    locator, _, path = " ".join(words.split()).partition(" ")
+    return bool(_LOCATOR.fullmatch(locator)) and path.casefold() in ("", *_LONG_PATH, *_SHORT_PATH)
+
+
 def _station(words: str, site: Site) -> Fixed | None:
     """Another station on the earth, at the horizon."""
-    locator, _, path = words.partition(" ")
-    if not _LOCATOR.fullmatch(locator) or path.casefold() not in ("", *_LONG_PATH, *_SHORT_PATH):
+    if not is_locator(words):
         return None
+    locator, _, path = words.partition(" ")
     longitude_deg, latitude_deg = from_locator(locator)
     seen = direction(site, Site(latitude_deg, longitude_deg))
     if seen is None:

@@ -72,3 +72,21 @@ def test_a_table_is_flown_and_its_mistakes_are_told_with_their_lines(
     ended = rotator_here("track", "--config", config).stdout
     assert re.fullmatch(r"The box tracks nothing: console#\d+ stopped it\.\n", ended), "it tells why"
     assert box.stop() == 0
+
+
+def test_a_name_that_is_taken_for_a_locator_is_told_as_one(start: Start, rotator_here: Rotator, tmp_path: Path) -> None:
+    """FO29 is a satellite, and where its elements are missing a square of the earth: a person must see which."""
+    config = tmp_path / "box.toml"
+    config.write_text('[station]\nlocator = "JO62qm"\n', encoding="utf-8")
+    box = start("run", "--config", config)
+    box.until("SIMULATED")
+    told = {
+        words: rotator_here("track", *words.split(), "--config", config).stdout
+        for words in ("fo29", "jn58td long", "180 45")
+    }
+    assert told == {
+        "fo29": "The antenna points at the locator FO29, and stays.\n",
+        "jn58td long": "The antenna points at the locator JN58TD LONG, and stays.\n",
+        "180 45": "The antenna goes there, and stays.\n",
+    }
+    assert box.stop() == 0
