@@ -24,7 +24,7 @@ from firmware_sim.clock import SimClock
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.rehearsal.flight import fly
-from rotator.rehearsal.overhearing import Told
+from rotator.rehearsal.overhearing import Named
 from rotator.rehearsal.passes import Pass
 from rotator.rehearsal.plants import BoxPlant, Plant
 from rotator.rehearsal.summary import SAMPLE_S, Summary
@@ -66,7 +66,7 @@ class Flights:
         return each[0] / each[1]
 
     @property
-    def told(self) -> Told | None:
+    def named(self) -> Named | None:
         return self.recognised.summary.recognised
 
     @property
@@ -96,15 +96,15 @@ def _flight(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> Flight:
 
 
 def line(each: Flights) -> str:
-    told = each.told
-    named = f"{told.name} after {told.after_s - each.job.early_s:5.1f} s" if told else "none"
+    named = each.named
+    recognised = f"{named.name} after {named.after_s - each.job.early_s:5.1f} s" if named else "none"
     shown = "; ".join(
         f"{one.rms_deg:6.2f}° {one.starts:3} starts {one.lost_s:5.1f} s"
         for one in (each.known, each.recognised, each.stream)
     )
-    wrong = " WRONG" if told and told.name != each.job.name else ""
+    wrong = " WRONG" if named and named.name != each.job.name else ""
     worse = " WORSE" if each.worse else ""
-    return f"{each.job.name:8} {each.job.ahead_s:+.1f} s: {shown}; {each.ratio:.2f}; {named}{wrong}{worse}"
+    return f"{each.job.name:8} {each.job.ahead_s:+.1f} s: {shown}; {each.ratio:.2f}; {recognised}{wrong}{worse}"
 
 
 def main() -> None:
@@ -128,7 +128,7 @@ def main() -> None:
                 print(line(each), flush=True)
             else:
                 print(f"{len(done)} of {len(wanted)} passes flown", file=sys.stderr, flush=True)
-    after_s = [each.told.after_s - each.job.early_s for each in done if each.told]
+    after_s = [each.named.after_s - each.job.early_s for each in done if each.named]
     print(f"{len(done)} passes, {len(after_s)} recognised, at most {max(after_s, default=0.0):.1f} s after the rise")
     for name in ("known", "recognised", "stream"):
         flown: list[Flight] = [getattr(each, name) for each in done]

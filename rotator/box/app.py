@@ -180,5 +180,5 @@ class App:
             await calibration.run(self.loop)
         except Exception:
             log.exception("the calibration has failed: nothing of it is saved")
-        self._anew.said = calibration.lines
+        self._anew.calibration_lines = calibration.lines
         self._anew.ask(self.loop.status)

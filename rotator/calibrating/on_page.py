@@ -53,7 +53,7 @@ class PageCalibration:
         with self._lock:
             self._keys.append(keys)
 
-    def told(self) -> dict[str, Any]:
+    def shown(self) -> dict[str, Any]:
         """What the guide says, and that a browser looks on. Called from the page's thread."""
         with self._lock:
             self._looked_s = self._clock()

@@ -146,20 +146,20 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
     """Lines, and at a terminal the same keys as in the picture."""
     wires = app.wires
     keys = RunKeys(app.console)
-    told = ""
+    printed = ""
 
     def greeting() -> list[str]:
         lines = plain_lines.greeting(__version__, app.config.rotor.hardware, wires)
         return [*lines, "  keys: " + ", ".join(terminal.KEYS).replace("   ", ", ")] if in_front(sys.stdin) else lines
 
     def key(pressed: str) -> None:
-        nonlocal told
+        nonlocal printed
         if keys.key(pressed):
             stop.set()
-        elif keys.line != told and not keys.line.endswith(NEXT):
-            told = keys.line
-            if told:
-                screen.write(f"{told}\n")
+        elif keys.line != printed and not keys.line.endswith(NEXT):
+            printed = keys.line
+            if printed:
+                screen.write(f"{printed}\n")
 
     looks = itertools.count(1)
 

@@ -27,16 +27,16 @@ class Mistake:
     """The lines of the file that it is about, from 1; empty where no line is to blame."""
 
     def __str__(self) -> str:
-        return self._said().replace(NO_BREAK, " ")
+        return self._with_lines().replace(NO_BREAK, " ")
 
     def wrapped(self, columns: int) -> str:
         """No word is broken unless it is longer than a line, and what is to be written stays together."""
         rows = textwrap.fill(
-            self._said(), columns, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False
+            self._with_lines(), columns, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False
         )
         return rows.replace(NO_BREAK, " ")
 
-    def _said(self) -> str:
+    def _with_lines(self) -> str:
         text = "".join(
             mark if mark.isprintable() or mark == NO_BREAK else mark.encode("unicode_escape").decode()
             for mark in self.text

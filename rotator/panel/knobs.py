@@ -69,14 +69,14 @@ class Knobs:
     def remarks(self) -> list[Order]:
         """Remarks about a knob's broken wire: one when it begins, one when it ends."""
         broken = {axis for axis, knob in self._knobs.items() if knob.trouble}
-        told: list[Order] = [
+        remarks: list[Order] = [
             Remark(axis, f"the panel's {axis.value} knob {self._knobs[axis].trouble}: {KNOB_OPEN}", "KNOB OPEN")
             for axis in Axis
             if axis in broken - self._remarked
         ]
-        told += [Remark(axis) for axis in Axis if axis in self._remarked - broken]
+        remarks += [Remark(axis) for axis in Axis if axis in self._remarked - broken]
         self._remarked = broken
-        return told
+        return remarks
 
 
 def _angle_deg(axis: AxisStatus, share: float) -> float:

@@ -25,7 +25,7 @@ COMPUTING_S = 0.6
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class Named:
     """The satellite that the box has named on its displays, and when: seconds after the stream began."""
 
     name: str
@@ -53,7 +53,7 @@ class Overhearing:
         self._due_s: deque[float] = deque()
         self._first_s: float | None = None
         self._true: Target | None = None
-        self.told: Told | None = None
+        self.named: Named | None = None
         """The first satellite that was named."""
         loop.overhear(self._hear)
         clock.add_alarm(lambda: self._due_s[0] if self._due_s else None, self._listen)
@@ -61,8 +61,8 @@ class Overhearing:
     def look(self) -> None:
         """After each cycle: whether the displays name a satellite."""
         name = self._loop.status.recognised
-        if name and self.told is None and self._first_s is not None:
-            self.told = Told(name, self._clock() - self._first_s)
+        if name and self.named is None and self._first_s is not None:
+            self.named = Named(name, self._clock() - self._first_s)
             self._true = next(each for each in self._satellites if each.name == name)
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:

@@ -29,7 +29,7 @@ from rotator.protocols.rotctld import Request
 from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
-from rotator.rehearsal.overhearing import Overhearing, Told
+from rotator.rehearsal.overhearing import Named, Overhearing
 from rotator.rehearsal.passes import Pass
 from rotator.rehearsal.sky_target import SkyTarget
 from rotator.runtime.client import Client
@@ -60,7 +60,7 @@ class Plant(Protocol):
     def relay_starts(self) -> int | None:
         """None: there are no relays."""
 
-    def recognised(self) -> Told | None:
+    def recognised(self) -> Named | None:
         """The satellite that it has recognised in its orders."""
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
@@ -177,8 +177,8 @@ class BoxPlant:
     def relay_starts(self) -> int | None:
         return self.world.relay_starts
 
-    def recognised(self) -> Told | None:
-        return self._overhearing.told if self._overhearing else None
+    def recognised(self) -> Named | None:
+        return self._overhearing.named if self._overhearing else None
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
         return self._overhearing.true_direction(now_s) if self._overhearing else None

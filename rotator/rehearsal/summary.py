@@ -9,7 +9,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from rotator.rehearsal.overhearing import Told
+from rotator.rehearsal.overhearing import Named
 from rotator.views.trace import Sample, errors_deg, rms
 
 SAMPLE_S = 0.05
@@ -25,7 +25,7 @@ class Summary:
     max_deg: float
     relay_starts: int | None
     motor_s: float
-    recognised: Told | None = None
+    recognised: Named | None = None
     """The satellite that the box has recognised in the stream; None: none."""
     faults: tuple[str, ...] = ()
     """The faults that hold an axis at the end, each in a sentence."""

@@ -29,7 +29,7 @@ class Anew:
         """The axis to calibrate after this start. None: a normal run."""
         self.refused = ""
         """Why the file of the latest start could not be used. The file before it is in place again."""
-        self.said: tuple[str, ...] = ()
+        self.calibration_lines: tuple[str, ...] = ()
         """The last message of the calibration that ended with the latest start."""
         self.again = False
         """The box has been started anew, by the page: it must come back with its page."""

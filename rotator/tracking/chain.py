@@ -29,18 +29,18 @@ NEARLY = 0.01
 class Part:
     """A pass, or a part of it, flown on one course from one look to another."""
 
-    one: SeenPass
+    seen: SeenPass
     course: Course
     first: int
     last: int
 
     @property
     def begin_s(self) -> float:
-        return self.one.moments_s[self.first]
+        return self.seen.moments_s[self.first]
 
     @property
     def end_s(self) -> float:
-        return self.one.moments_s[self.last]
+        return self.seen.moments_s[self.last]
 
     @property
     def wait_deg(self) -> Place:
@@ -66,8 +66,8 @@ class Part:
 class _Line:
     """A course with its cuts. `worth[at]`: worth of the best chain that begins this course at that cut."""
 
-    def __init__(self, one: SeenPass, course: Course, least: float) -> None:
-        self.one, self.course, self.looks = one, course, one.cuts
+    def __init__(self, seen: SeenPass, course: Course, least: float) -> None:
+        self.seen, self.course, self.looks = seen, course, seen.cuts
         count = len(self.looks)
         self.gained = [course.gained[look] for look in self.looks]
         self.least = least
@@ -94,7 +94,7 @@ class _Line:
             self.worth[at], self.ends[at] = self._ended[first][0] - self.gained[at], self._ended[first][1]
 
     def part(self, at: int) -> Part:
-        return Part(self.one, self.course, self.looks[at], self.looks[self.ends[at]])
+        return Part(self.seen, self.course, self.looks[at], self.looks[self.ends[at]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,9 +146,11 @@ def best_chain(
     flyable: Sequence[tuple[SeenPass, Sequence[Course]]], stands_deg: Place, travel: Travel, from_s: float
 ) -> list[Part]:
     """The parts in order. `flyable`: each pass with its courses. `stands_deg`: the antenna's place at `from_s`."""
-    of_pass = [[_Line(one, course, _least(one, ways)) for course in ways] for one, ways in flyable]
+    of_pass = [[_Line(seen, course, _least(seen, ways)) for course in ways] for seen, ways in flyable]
     cuts = [
-        (one.moments_s[look], number, at) for number, (one, _) in enumerate(flyable) for at, look in enumerate(one.cuts)
+        (seen.moments_s[look], number, at)
+        for number, (seen, _) in enumerate(flyable)
+        for at, look in enumerate(seen.cuts)
     ]
     later = _Later(travel)
     for at_s, number, at in sorted(cuts, reverse=True):
@@ -168,9 +170,9 @@ def best_chain(
     return parts
 
 
-def ready_s(one: SeenPass, begin_s: float, from_s: float) -> float:
+def ready_s(seen: SeenPass, begin_s: float, from_s: float) -> float:
     """When the antenna must be in place, in a plan made at `from_s`. A pass that is already up needs no waiting."""
-    up_already = one.found.aos_s is None or one.found.aos_s < from_s
+    up_already = seen.found.aos_s is None or seen.found.aos_s < from_s
     return begin_s if up_already else begin_s - SPARE_S
 
 
@@ -180,7 +182,7 @@ def _first(of_pass: Sequence[Sequence[_Line]], stands_deg: Place, travel: Travel
     for lines in of_pass:
         for line in lines:
             for at, look in enumerate(line.looks):
-                within_s = ready_s(line.one, line.one.moments_s[look], from_s) - from_s
+                within_s = ready_s(line.seen, line.seen.moments_s[look], from_s) - from_s
                 if line.worth[at] > most and travel.reaches(stands_deg, line.place(at), within_s):
                     most, best = line.worth[at], _Begin(lines, line, at)
     return best
@@ -188,8 +190,8 @@ def _first(of_pass: Sequence[Sequence[_Line]], stands_deg: Place, travel: Travel
 
 def _nearest(begin: _Begin, place: Place, free_s: float, travel: Travel, from_s: float) -> _Begin:
     """Of equally valuable courses, the one that begins nearest to the antenna's place."""
-    one, at = begin.line.one, begin.at
-    within_s = ready_s(one, one.moments_s[begin.line.looks[at]], from_s) - free_s
+    seen, at = begin.line.seen, begin.at
+    within_s = ready_s(seen, seen.moments_s[begin.line.looks[at]], from_s) - free_s
     as_good = [
         line
         for line in begin.others
@@ -199,7 +201,7 @@ def _nearest(begin: _Begin, place: Place, free_s: float, travel: Travel, from_s:
     return _Begin(begin.others, nearest, at)
 
 
-def _least(one: SeenPass, ways: Sequence[Course]) -> float:
+def _least(seen: SeenPass, ways: Sequence[Course]) -> float:
     """The least worth of a part that is flown."""
     most = max(course.gained[-1] for course in ways)
-    return min(LEAST_SHARE * most, LEAST_WORTH * one.followed.priority) * (1 - EVEN)
+    return min(LEAST_SHARE * most, LEAST_WORTH * seen.followed.priority) * (1 - EVEN)

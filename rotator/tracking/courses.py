@@ -94,43 +94,43 @@ def _sight(found: Pass, followed: Followed, at_s: float) -> Sight:
         return found.highest
 
 
-def courses(one: SeenPass, mount: Mount, travel: Travel) -> list[Course]:
+def courses(seen: SeenPass, mount: Mount, travel: Travel) -> list[Course]:
     """All courses worth flying."""
-    plain = [_on_one_way(one, mount, way, travel) for way in _reaching(one, mount)]
+    plain = [_on_one_way(seen, mount, way, travel) for way in _reaching(seen, mount)]
     found = [course for course in plain if course.gained[-1] > 0]
     if not found:
         return []
     if min(course.lost_s[-1] for course in found) > EVEN_S:
-        changed = [_changed(one, before, after, travel) for before in found for after in found if before is not after]
+        changed = [_changed(seen, before, after, travel) for before in found for after in found if before is not after]
         found += [each for each in changed if each is not None]
     most = max(course.gained[-1] for course in found)
     return [course for course in found if course.gained[-1] >= WORST_SHARE * most]
 
 
-def _reaching(one: SeenPass, mount: Mount) -> list[Way]:
+def _reaching(seen: SeenPass, mount: Mount) -> list[Way]:
     """The ways that lie at least partly within the range."""
     turned_deg = list(
         accumulate(
-            turn_deg(before[0], after[0]) for before, after in zip(one.directions, one.directions[1:], strict=False)
+            turn_deg(before[0], after[0]) for before, after in zip(seen.directions, seen.directions[1:], strict=False)
         )
     )
     least_deg, most_deg = min(0.0, *turned_deg), max(0.0, *turned_deg)
     return [
         way
-        for way in possible_ways(mount, one.directions[0])
+        for way in possible_ways(mount, seen.directions[0])
         if way.azimuth_deg + least_deg <= mount.azimuth.max_deg and way.azimuth_deg + most_deg >= mount.azimuth.min_deg
     ]
 
 
-def _on_one_way(one: SeenPass, mount: Mount, way: Way, travel: Travel) -> Course:
-    flown = Flown(mount, one.directions, way)
+def _on_one_way(seen: SeenPass, mount: Mount, way: Way, travel: Travel) -> Course:
+    flown = Flown(mount, seen.directions, way)
     places = [
         (azimuth_deg, mount.clear_deg(azimuth_deg, elevation_deg))
         for azimuth_deg, elevation_deg in zip(flown.azimuths_deg, flown.elevations_deg, strict=True)
     ]
-    step_s = one.step_s
+    step_s = seen.step_s
     gains, losses_s = [0.0], [0.0]
-    for look, rate in enumerate(one.rates[:-1]):
+    for look, rate in enumerate(seen.rates[:-1]):
         share = flown.loss_s(look) / STEP_S if travel.on_this_side(places[look]) else 1.0
         gains.append(rate * (1.0 - share) * step_s / 60.0)
         losses_s.append(step_s if share >= 1.0 and rate > 0 else 0.0)
@@ -139,10 +139,10 @@ def _on_one_way(one: SeenPass, mount: Mount, way: Way, travel: Travel) -> Course
     return Course(places, over, stands, list(accumulate(gains)), list(accumulate(losses_s)))
 
 
-def _changed(one: SeenPass, before: Course, after: Course, travel: Travel) -> Course | None:
+def _changed(seen: SeenPass, before: Course, after: Course, travel: Travel) -> Course | None:
     """The change from one course to another in the middle of the pass, at the best look. None: no look is worth it."""
-    last = len(one.moments_s) - 1
-    step_s = one.step_s
+    last = len(seen.moments_s) - 1
+    step_s = seen.step_s
     most, best = max(before.gained[-1], after.gained[-1]), None
     for look in range(last):
         arrival = look + _looks(travel.least_s(before.places[look], after.places[look]), step_s)

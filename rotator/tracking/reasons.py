@@ -25,17 +25,17 @@ def too_low(found: Pass, followed: Followed) -> str:
     return f"culminates at {shown}°, below the {asked_deg:g}° asked"
 
 
-def unseen(one: SeenPass) -> str:
+def unseen(seen: SeenPass) -> str:
     """Why no course of this pass is worth anything."""
-    if any(one.rates):
+    if any(seen.rates):
         return "the rotor does not reach it"
-    on_already = one.found.aos_s is not None and one.found.aos_s < one.moments_s[0]
+    on_already = seen.found.aos_s is not None and seen.found.aos_s < seen.moments_s[0]
     return f"{'the rest of it' if on_already else 'all of it'} is behind the horizon of trees and roofs"
 
 
-def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
+def left_out(seen: SeenPass, flown: Sequence[PlannedPass]) -> str:
     """Names the flights that are worth more."""
-    begin_s, end_s = one.moments_s[0], one.moments_s[-1]
+    begin_s, end_s = seen.moments_s[0], seen.moments_s[-1]
     during = _between(flown, begin_s - SPARE_S, end_s + SPARE_S)
     rivals = during or _between(flown, begin_s - NEAR_S, end_s + NEAR_S)
     names = list(dict.fromkeys(each.name for each in rivals))
@@ -43,16 +43,16 @@ def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
         return "sets before the antenna can be there"
     if not during:
         return f"no time to turn there beside {_and(names)}"
-    higher = [each.name for each in during if each.priority > one.followed.priority]
+    higher = [each.name for each in during if each.priority > seen.followed.priority]
     if higher:
         return f"{_and(list(dict.fromkeys(higher)))} {_has(higher)} the higher priority"
     if len(names) > 1:
         return f"{_and(names)} are worth more together"
     (rival, *_) = rivals
-    high_deg, its_deg = one.found.highest.elevation_deg, rival.found.highest.elevation_deg
-    if rival.priority == one.followed.priority and round(its_deg) > round(high_deg):
+    high_deg, its_deg = seen.found.highest.elevation_deg, rival.found.highest.elevation_deg
+    if rival.priority == seen.followed.priority and round(its_deg) > round(high_deg):
         return f"{rival.name} rises higher, to {its_deg:.0f}°"
-    return f"{rival.name} is {'up for longer' if _lasts_s(rival.found) > _lasts_s(one.found) else 'worth more'}"
+    return f"{rival.name} is {'up for longer' if _lasts_s(rival.found) > _lasts_s(seen.found) else 'worth more'}"
 
 
 def in_part(part: Part, ways: Iterable[Course], before: str | None, after: str | None) -> str:
@@ -60,7 +60,7 @@ def in_part(part: Part, ways: Iterable[Course], before: str | None, after: str |
 
     `ways`: every course of the pass. The chosen one may have turned no further because the next flight comes soon.
     """
-    little = LITTLE * part.one.followed.priority
+    little = LITTLE * part.seen.followed.priority
     late = any(way.gained[part.first] > little for way in ways)
     early = any(way.gained[-1] - way.gained[part.last] > little for way in ways)
     cause = f"after {before}" if before else "the antenna has to turn there first"

@@ -38,18 +38,18 @@ def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, unti
             if found.highest.elevation_deg < each.min_culmination_deg:
                 planned.append(PlannedPass(found, each.priority, None, too_low(found, each)))
                 continue
-            one = seen_pass(found, each, antenna.mount, from_s, until_s)
-            if ways := courses(one, antenna.mount, travel):
-                flyable.append((one, ways))
+            seen = seen_pass(found, each, antenna.mount, from_s, until_s)
+            if ways := courses(seen, antenna.mount, travel):
+                flyable.append((seen, ways))
             else:
-                planned.append(PlannedPass(found, each.priority, None, unseen(one)))
+                planned.append(PlannedPass(found, each.priority, None, unseen(seen)))
     parts = widened(best_chain(flyable, antenna.stands_deg, travel, from_s), antenna.stands_deg, travel, from_s)
-    ways_of = {id(one): ways for one, ways in flyable}
+    ways_of = {id(seen): ways for seen, ways in flyable}
     flown = list(_flights(parts, ways_of, travel, from_s))
-    chosen = {id(part.one) for part in parts}
-    for one, _ in flyable:
-        if id(one) not in chosen:
-            planned.append(PlannedPass(one.found, one.followed.priority, None, left_out(one, flown)))
+    chosen = {id(part.seen) for part in parts}
+    for seen, _ in flyable:
+        if id(seen) not in chosen:
+            planned.append(PlannedPass(seen.found, seen.followed.priority, None, left_out(seen, flown)))
     return tuple(sorted([*planned, *flown], key=lambda each: _order(each, from_s)))
 
 
@@ -62,11 +62,11 @@ def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: fl
         kept = part
         for look in range(part.first - 1, -1, -1):
             earlier = replace(kept, first=look)
-            ready = ready_s(part.one, earlier.begin_s, from_s)
+            ready = ready_s(part.seen, earlier.begin_s, from_s)
             if not (earlier.may_begin and travel.reaches(place, earlier.wait_deg, ready - free_s)):
                 break
             kept = earlier
-        for look in range(part.last + 1, len(part.one.moments_s)):
+        for look in range(part.last + 1, len(part.seen.moments_s)):
             later = replace(kept, last=look)
             left_s = math.inf if after is None else after.begin_s - SPARE_S - later.end_s
             if not later.may_end or (after and not travel.reaches(later.end_deg, after.wait_deg, left_s)):
@@ -83,9 +83,9 @@ def _flights(
     """`ways_of`: the courses of each pass, by its identity."""
     free_s = from_s
     for index, part in enumerate(parts):
-        before = parts[index - 1].one.found.name if index else None
-        after = parts[index + 1].one.found.name if index + 1 < len(parts) else None
-        ways = ways_of[id(part.one)]
+        before = parts[index - 1].seen.found.name if index else None
+        after = parts[index + 1].seen.found.name if index + 1 < len(parts) else None
+        ways = ways_of[id(part.seen)]
         flight = Flight(
             # Early enough from any place: a person may have moved the antenna since the last pass.
             set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s - START_S),
@@ -95,7 +95,7 @@ def _flights(
             over_the_top=part.course.over[part.first],
             lost_s=part.course.lost_s[part.last] - part.course.lost_s[part.first],
         )
-        yield PlannedPass(part.one.found, part.one.followed.priority, flight, in_part(part, ways, before, after))
+        yield PlannedPass(part.seen.found, part.seen.followed.priority, flight, in_part(part, ways, before, after))
         free_s = part.end_s
 
 

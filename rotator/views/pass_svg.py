@@ -111,14 +111,14 @@ class _Row:
     """Ticks where a relay closes; bars where a motor without relays turns."""
 
     name: str
-    told: str
+    words: str
     colour: str
     ticks_s: Sequence[float] = ()
     bars_s: Sequence[tuple[float, float]] = ()
 
     def drawn(self, y: float, times: _Times) -> Iterator[str]:
         yield text(LEFT - 16, y - 3, f"{self.name}:", "end", self.colour)
-        yield text(LEFT - 16, y + 17, self.told, "end", self.colour)
+        yield text(LEFT - 16, y + 17, self.words, "end", self.colour)
         yield line([(LEFT, y), (RIGHT, y)], "grid", 1.0)
         ticks = " ".join(f"M {times.x(t):.1f} {y - 13} v 26" for t in self.ticks_s)
         if ticks:

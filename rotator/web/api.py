@@ -75,7 +75,7 @@ class Api:
             *self._reads(),
             *PairingApi(self._entrance, self._parts.pairings, self._parts.utc).routes(),
             *(openapi.order(each, self._order(each)) for each in METHODS),
-            tables.route(self._entrance, self._as, self._parts.scene.said),
+            tables.route(self._entrance, self._as, self._parts.scene.with_names),
             *(route for group in self._parts.groups for route in group(self._entrance)),
         ]
 
@@ -123,8 +123,10 @@ class Api:
     async def _log(self, request: web.Request) -> web.StreamResponse:
         # The answer names people's browsers and machines.
         self._entrance.must_be_paired(request)
-        said = self._parts.scene.said
-        return web.json_response({"lines": [{**line, "text": said(line["text"])} for line in self._parts.lines.told()]})
+        with_names = self._parts.scene.with_names
+        return web.json_response(
+            {"lines": [{**line, "text": with_names(line["text"])} for line in self._parts.lines.latest_first()]}
+        )
 
     async def _serve_live(self, request: web.Request) -> web.StreamResponse:
         self._entrance.may_read(request)
@@ -152,7 +154,7 @@ class Api:
         def order(jog: Jog) -> str:
             # Ask at each sign: its pairing may have been revoked.
             who = self._entrance.who(request)
-            return self._parts.scene.said(self._as(who).do(jog)) if who else "this browser is paired no more"
+            return self._parts.scene.with_names(self._as(who).do(jog)) if who else "this browser is paired no more"
 
         return order
 
@@ -186,7 +188,7 @@ class Api:
             if isinstance(command, Release) and self._has_stopped_since(request):
                 return error(412, "it has been stopped again meanwhile: look at it, and press once more")
             refused = self._as(who).do(command)
-            return error(409, self._parts.scene.said(refused)) if refused else web.json_response({"ok": True})
+            return error(409, self._parts.scene.with_names(refused)) if refused else web.json_response({"ok": True})
 
         return answer
 

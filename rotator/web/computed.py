@@ -44,20 +44,20 @@ class Computed:
         self._shaped = shaped
         self._good = good
         self._computing: asyncio.Task[None] | None = None
-        self._told: dict[str, Any] = {}
+        self._kept: dict[str, Any] = {}
         self._until_s = 0.0
 
-    def told(self) -> dict[str, Any] | None:
+    def answer(self) -> dict[str, Any] | None:
         """The answer, or `error` with the reason. None: it is being computed; ask again."""
         if self._clock() < self._until_s:
-            return self._told
+            return self._kept
         if self._computing is None or self._computing.done():
             self._computing = asyncio.create_task(self._compute(), name=f"page: {self._named}")
         return None
 
     def latest(self) -> dict[str, Any] | None:
         """The last answer. If it is old, a new one is being computed. None: no answer yet."""
-        return self.told() or self._told or None
+        return self.answer() or self._kept or None
 
     async def close(self) -> None:
         """End the process that computes."""
@@ -74,18 +74,18 @@ class Computed:
             self._computing = None
 
     async def newest(self) -> dict[str, Any]:
-        """Wait for the answer. Returns the same as `told`."""
-        while (told := self.told()) is None:
+        """Wait until it is computed. Returns the same as `answer`."""
+        while (answer := self.answer()) is None:
             assert self._computing is not None, "what is not there is computed"
             await asyncio.wait([self._computing])
-        return told
+        return answer
 
     async def _compute(self) -> None:
         try:
-            self._told = await self._answer()
+            self._kept = await self._answer()
         except OSError as fault:
-            self._told = {"error": f"{self._named} cannot be computed: {fault}"}
-        self._until_s = self._clock() + (ERROR_KEPT_S if "error" in self._told else self._kept_s)
+            self._kept = {"error": f"{self._named} cannot be computed: {fault}"}
+        self._until_s = self._clock() + (ERROR_KEPT_S if "error" in self._kept else self._kept_s)
 
     async def _answer(self) -> dict[str, Any]:
         pipe = asyncio.subprocess.PIPE

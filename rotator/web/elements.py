@@ -23,7 +23,7 @@ from rotator.web.entrance import Entrance, bytes_of, error, values_of
 from rotator.web.route import Route, get, post
 from rotator.web.schema import ELEMENTS, NUMBER, TEXT, WHOLE, YES, body_of, in_address, list_of, object_of, or_null, the
 
-Told = dict[str, Any]
+Fields = dict[str, Any]
 LONGEST_NAME = 200
 _FILE = object_of(
     {
@@ -70,9 +70,9 @@ class ElementFiles:
         """Allows one file at a time: each takes memory and a core."""
 
     def routes(self, entrance: Entrance) -> Sequence[Route]:
-        async def told(request: web.Request) -> web.StreamResponse:
+        async def listed(request: web.Request) -> web.StreamResponse:
             entrance.may_read(request)
-            return web.json_response(await asyncio.to_thread(self.told))
+            return web.json_response(await asyncio.to_thread(self.listed))
 
         async def take(request: web.Request) -> web.StreamResponse:
             # Before the first byte is read: a stranger's file must not take memory.
@@ -111,7 +111,7 @@ class ElementFiles:
         )
         ages = "The files and addresses of elements, and how old these are", _TOLD
         return (
-            get("/api/elements", told, ages),
+            get("/api/elements", listed, ages),
             post("/api/elements", take, summary, ELEMENTS, answer=kept, most_body=MOST_BYTES, query=name),
             post("/api/elements/remove", remove, "Forget a file that was sent", forget),
         )
@@ -131,7 +131,7 @@ class ElementFiles:
         wrong = [each for each in found if isinstance(each, str)]
         return wrong if found else ["it holds no elements"]
 
-    def told(self) -> Told:
+    def listed(self) -> Fields:
         """Files and addresses, each with its satellites and the age of their elements in days."""
         now_s, mine = self._utc(), {self._uploads.folder / name for name in self._uploads.names()}
         files = [
@@ -146,17 +146,17 @@ class ElementFiles:
             "fetch": [
                 {
                     "address": address,
-                    "trouble": (one := asked.get(address)) and one.trouble,
-                    "good_s": one and one.good_utc_s and round(now_s - one.good_utc_s),
-                    "satellites": one.sets if one else 0,
-                    "again_s": round(one.asked_utc_s + one.wait_s - now_s) if one else None,
+                    "trouble": (asked_last := asked.get(address)) and asked_last.trouble,
+                    "good_s": asked_last and asked_last.good_utc_s and round(now_s - asked_last.good_utc_s),
+                    "satellites": asked_last.sets if asked_last else 0,
+                    "again_s": round(asked_last.asked_utc_s + asked_last.wait_s - now_s) if asked_last else None,
                 }
                 for address in self._fetch
             ],
         }
 
 
-def _ages(sets: Sequence[Elements], now_s: float) -> Told:
+def _ages(sets: Sequence[Elements], now_s: float) -> Fields:
     ages = [each.age_days(now_s) for each in sets]
     return {
         "satellites": len(sets),

@@ -78,7 +78,7 @@ class HelpApi:
 
     async def _examine(self, request: web.Request) -> web.StreamResponse:
         self._entrance.may_read(request)
-        return computed(self._doctor.told())
+        return computed(self._doctor.answer())
 
     async def _diagnose(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)

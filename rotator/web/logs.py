@@ -42,7 +42,7 @@ class LogLines(logging.Handler):
         """Seconds since 1970, rank and text of each line, the oldest first."""
         return list(self._lines)
 
-    def told(self) -> list[dict[str, Any]]:
+    def latest_first(self) -> list[dict[str, Any]]:
         """The lines, the latest first. `at_s`: seconds since 1970."""
         return [{"at_s": at_s, "rank": rank, "text": text} for at_s, rank, text in reversed(self.kept())]
 

@@ -86,10 +86,10 @@ class Passes:
         if self._computed:
             await self._computed.close()
 
-    def told(self) -> dict[str, Any] | None:
+    def answer(self) -> dict[str, Any] | None:
         """`passes`, or `error` with the reason. None: they are being computed; ask again."""
         self._look()
-        return self._computed.told() if self._computed else {"error": NO_PLACE}
+        return self._computed.answer() if self._computed else {"error": NO_PLACE}
 
     def _look(self) -> None:
         """Forget the passes if elements are new: fetched, or copied into the folder."""

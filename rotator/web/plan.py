@@ -26,7 +26,7 @@ from rotator.web.passes import PASS, Passes
 from rotator.web.route import COMPUTING, Route, get, post
 from rotator.web.schema import NUMBER, TEXT, body_of, list_of, object_of, the
 
-Told = dict[str, Any]
+Fields = dict[str, Any]
 LONGEST_ORDER = 16_384
 LEAST_DEG = 10.0
 """Degrees: without a plan the next pass is the first that rises this high."""
@@ -72,13 +72,13 @@ class Plan:
         self._passes = passes
         self._changed = changed
         self._utc = utc
-        self._next: tuple[str, Told] = ("", {})
+        self._next: tuple[str, Fields] = ("", {})
         """The next pass as last sent, by its name and rise."""
 
     def routes(self, entrance: Entrance) -> Sequence[Route]:
         async def passes(request: web.Request) -> web.StreamResponse:
             entrance.may_read(request)
-            return computed(self._passes.told())
+            return computed(self._passes.answer())
 
         async def upcoming(request: web.Request) -> web.StreamResponse:
             entrance.may_read(request)
@@ -112,12 +112,12 @@ class Plan:
 
     # --- what is followed
 
-    def followed(self) -> list[Told]:
+    def followed(self) -> list[Fields]:
         """The targets of the configuration, the highest priority first."""
         rows = [self._row(each) for each in self._follow]
         return sorted(rows, key=lambda row: -row["priority"])
 
-    def _row(self, each: FollowTable) -> Told:
+    def _row(self, each: FollowTable) -> Fields:
         target, fault = "", ""
         try:
             wanted = self._sky.find(each.name)
@@ -153,7 +153,7 @@ class Plan:
 
     # --- the next pass
 
-    def upcoming(self) -> Told | None:
+    def upcoming(self) -> Fields | None:
         """The next pass of the plan, or the next good one without a plan, with its path; {}: none; None: ask again."""
         if not self._sky.elements and not self._follow:
             return {}
@@ -168,7 +168,7 @@ class Plan:
             self._next = key, {**found, "points": self._path(found)}
         return self._next[1]
 
-    def _path(self, found: Told) -> list[list[float]]:
+    def _path(self, found: Fields) -> list[list[float]]:
         """The directions of the pass; empty if its elements are no longer known."""
         begin_s, end_s = (datetime.fromisoformat(found[key]).timestamp() for key in ("aos", "los"))
         try:
@@ -183,7 +183,7 @@ class Plan:
         return [[round(sight.azimuth_deg, 1), round(max(0.0, sight.elevation_deg), 1)] for sight in sights]
 
 
-def next_pass(passes: Sequence[Told], now_s: float) -> Told | None:
+def next_pass(passes: Sequence[Fields], now_s: float) -> Fields | None:
     """The first pass to come in the plan. If nothing is planned: the first that rises high enough."""
     now = datetime.fromtimestamp(now_s).astimezone()
     to_come = [each for each in passes if each["aos"] and each["los"] and datetime.fromisoformat(each["aos"]) > now]

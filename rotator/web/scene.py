@@ -126,8 +126,8 @@ class Scene:
     def now(self) -> dict[str, Any]:
         """All values that may change at any time."""
         status = self._status()
-        told = self._told(status)
-        headline, style = words.headline(told)
+        named_status = self._with_names(status)
+        headline, style = words.headline(named_status)
         flown = status.flown
         return {
             "status": as_object(status),
@@ -150,16 +150,16 @@ class Scene:
             "utc_s": round(self._utc(), 2),
             "lamps": {name: lamp for axis in Axis for name, lamp in _lamps(axis, status.axis(axis)).items()},
             "lcd": list(self._lcd()),
-            "mover": told.controlled_by,
-            "holder": told.held_by,
-            "stopper": told.latched,
-            "mode_by": told.mode_by,
+            "mover": named_status.controlled_by,
+            "holder": named_status.held_by,
+            "stopper": named_status.latched,
+            "mode_by": named_status.mode_by,
             "mode_switch": status.mode_switch,
-            "notes": [*told.notices, *words.notes(status), *words.lacks(status)],
+            "notes": [*named_status.notices, *words.notes(status), *words.lacks(status)],
             "links": [_link(wire) for wire in self._wires],
         }
 
-    def _told(self, status: Status) -> Status:
+    def _with_names(self, status: Status) -> Status:
         """The status with the names of people's browsers in place of their numbers."""
         return replace(
             status,
@@ -167,15 +167,15 @@ class Scene:
             controlled_by=ITSELF if status.controlled_by == TRACKER else self._who(status.controlled_by, status),
             held_by=self._who(status.held_by),
             mode_by=self._who(status.mode_by),
-            notices=tuple(self.said(notice) for notice in status.notices),
+            notices=tuple(self.with_names(notice) for notice in status.notices),
         )
 
     def _who(self, name: str, moves: Status | None = None) -> str:
         """One sender, with the name of a person's browser. `moves`: the status, if the sender moves the antenna."""
-        said = self.said(name)
-        return said if said != name else sender(name, moves.controlled_from if moves else "")
+        named = self.with_names(name)
+        return named if named != name else sender(name, moves.controlled_from if moves else "")
 
-    def said(self, text: str) -> str:
+    def with_names(self, text: str) -> str:
         """A text with the names of people's browsers in place of their numbers."""
         return spoken(_PAGE.sub(lambda found: self._name(found[1]), text))
 

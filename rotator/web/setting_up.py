@@ -143,8 +143,8 @@ class SettingUpApi:
     async def _guide(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
         if self._calibration is None:
-            return web.json_response({"axis": None, "lines": self._file.anew.said})
-        return web.json_response(self._calibration.told())
+            return web.json_response({"axis": None, "lines": self._file.anew.calibration_lines})
+        return web.json_response(self._calibration.shown())
 
     async def _press(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)

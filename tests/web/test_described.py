@@ -86,7 +86,7 @@ def test_what_a_calibration_says_is_as_described(page_box: Start, tmp_path: Path
     async def main() -> None:
         async with page_box() as box:
             told = await description(box)
-            told.answers("/api/calibration", calibration.told())
+            told.answers("/api/calibration", calibration.shown())
 
     asyncio.run(main())
 

@@ -28,7 +28,7 @@ def test_the_latest_lines_are_kept_the_newest_first(lines: LogLines) -> None:
     log = logging.getLogger("rotator.test")
     for number in range(MOST_LINES + 10):
         log.warning("line %d\nits second line", number)
-    told = lines.told()
+    told = lines.latest_first()
     assert len(told) == MOST_LINES
     assert told[0]["text"] == f"line {MOST_LINES + 9}"
     assert told[0]["rank"] == "warning"
@@ -38,7 +38,7 @@ def test_a_line_that_cannot_be_written_ends_nothing(lines: LogLines, monkeypatch
     monkeypatch.setattr(logging, "raiseExceptions", False)
     lines.handle(logging.LogRecord("x", logging.WARNING, "f", 1, "%d of %d", ("one",), None))
     lines.handle(logging.LogRecord("x", logging.WARNING, "f", 1, "and on", (), None))
-    assert [line["text"] for line in lines.told()] == ["and on"]
+    assert [line["text"] for line in lines.latest_first()] == ["and on"]
 
 
 def test_the_log_is_for_paired_browsers(page_box: Start) -> None:

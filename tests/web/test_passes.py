@@ -23,9 +23,9 @@ def printing(text: str, code: int = 0, *, to: str = "stdout") -> tuple[str, ...]
 async def computed(passes: Passes) -> dict[str, Any]:
     """Ask until they are there, as the page does."""
     async with asyncio.timeout(PATIENCE_S):
-        while (told := passes.told()) is None:
+        while (answer := passes.answer()) is None:
             await asyncio.sleep(0.01)
-        return told
+        return answer
 
 
 def test_an_error_is_not_kept_for_long() -> None:
@@ -35,7 +35,7 @@ def test_an_error_is_not_kept_for_long() -> None:
         passes = Passes(printing("", 3), lambda: now_s[0])
         assert "error" in await computed(passes)
         now_s[0] = ERROR_KEPT_S
-        assert passes.told() is None
+        assert passes.answer() is None
         await computed(passes)
 
     asyncio.run(main())
@@ -45,8 +45,8 @@ def test_they_are_those_of_the_command_line(tmp_path: Path) -> None:
     config = tmp_path / "r.toml"
     config.write_text(f'[station]\nlocator = "JN18eu"\n[sky]\nelements = ["{skyfield_oracle.TLE}"]\n', encoding="utf-8")
     words = command(config)[len(LEAST_PRIORITY) :]  # a busy machine would let the test wait
-    told = asyncio.run(computed(Passes(words, lambda: 0.0)))
-    assert "error" in told or {"name", "aos", "los", "max_el_deg"} <= told["passes"][0].keys()
+    answer = asyncio.run(computed(Passes(words, lambda: 0.0)))
+    assert "error" in answer or {"name", "aos", "los", "max_el_deg"} <= answer["passes"][0].keys()
 
 
 def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
@@ -56,7 +56,7 @@ def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
 
     async def main() -> None:
         passes = Passes(words, lambda: now_s[0])
-        assert passes.told() is None, "nobody waits for them"
+        assert passes.answer() is None, "nobody waits for them"
         assert await asyncio.gather(computed(passes), computed(passes)) == [{"passes": []}] * 2
         assert counts.read_text() == "x"
         now_s[0] = KEPT_S
@@ -75,9 +75,9 @@ def test_new_elements_change_them(tmp_path: Path) -> None:
     async def main() -> None:
         passes = Passes(words, lambda: 0.0, lambda: known[0])
         await computed(passes)
-        assert passes.told() is not None, "nothing is new"
+        assert passes.answer() is not None, "nothing is new"
         known[0] = ("ISS",)
-        assert passes.told() is None
+        assert passes.answer() is None
         await computed(passes)
         assert passes.latest == []
         assert counts.read_text() == "xx"
@@ -95,5 +95,5 @@ def test_new_elements_change_them(tmp_path: Path) -> None:
     ],
 )
 def test_a_box_without_a_sky_says_why(words: tuple[str, ...] | None, error: str) -> None:
-    told = asyncio.run(computed(Passes(words, lambda: 0.0)))
-    assert told["error"].startswith(error)
+    answer = asyncio.run(computed(Passes(words, lambda: 0.0)))
+    assert answer["error"].startswith(error)
