@@ -86,8 +86,9 @@ class RigctldReceiver:
         line.settimeout(PATIENCE_S)
         asks = question(names_vfo=wants_vfo(_answer(line, ASKS_VFO)))
         while not self._stopping.is_set():
+            asked_s = self._clock()
             told_db = strength_db(_answer(line, asks))
-            self._latest = Strength(self._clock(), told_db)
+            self._latest = Strength(self._clock(), told_db, asked_s=asked_s)
             self._stopping.wait(ASK_EVERY_S)
 
     @property

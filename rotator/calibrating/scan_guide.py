@@ -142,7 +142,7 @@ class ScanGuide(SkyGuide):
         """The mean of what the receiver tells while the boom stands, and of where the target is beside it."""
         began_s = self._now_s
         told: list[float] = []
-        latest_s = self._strength.at_s if self._strength else began_s
+        latest_s = -math.inf
         beside: list[Beside] = []
         while True:
             yield
@@ -154,7 +154,8 @@ class ScanGuide(SkyGuide):
             self._receiver_hears()
             beside.append(self._beside())
             strength = self._strength
-            if strength is not None and not strength.problem and strength.at_s > latest_s:
+            # An answer to a question of before is of the place before.
+            if strength is not None and strength.is_of(began_s) and strength.at_s > latest_s:
                 latest_s = strength.at_s
                 told.append(strength.strength_db)
             passes_by = math.dist(beside[0], beside[-1]) > PASSES_BY * self._facts.beam_deg

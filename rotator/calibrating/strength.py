@@ -21,11 +21,19 @@ SHOWN = 40
 
 @dataclass(frozen=True, slots=True)
 class Strength:
-    """What the receiver told at this moment. `problem`: why it tells nothing; empty: it does."""
+    """What the receiver told at this moment. `problem`: why it tells nothing; empty: it does.
+
+    `asked_s`: when it was asked; None: at this moment. It may answer seconds later, of any moment in between.
+    """
 
     at_s: float
     strength_db: float = 0.0
     problem: str = ""
+    asked_s: float | None = None
+
+    def is_of(self, begin_s: float) -> bool:
+        """Whether it is a strength of a moment after this one."""
+        return not self.problem and (self.at_s if self.asked_s is None else self.asked_s) >= begin_s
 
 
 class NoStrength(ValueError):  # noqa: N818 - a sentence for a person

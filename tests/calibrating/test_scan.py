@@ -126,6 +126,31 @@ def test_a_single_answer_that_fails_ends_no_scan() -> None:
     assert off_deg(sky, point) < BEAM_DEG / 10
 
 
+@pytest.mark.parametrize("late_s", [0.5, 1.5, 2.9])
+def test_what_a_slow_receiver_heard_while_the_boom_still_turned_does_not_count(late_s: float) -> None:
+    """It answers late, and its answer is of the moment of the question."""
+
+    def slow(clock: Callable[[], float], off_deg: Callable[[], float]) -> Callable[[], Strength | None]:
+        tells = behind()(clock, off_deg)
+        asked: list[tuple[float, Strength]] = []
+        told: list[Strength | None] = [None]
+
+        def latest() -> Strength | None:
+            if not asked:
+                asked.append((clock(), tells()))
+            begun_s, heard = asked[-1]
+            if clock() >= begun_s + late_s:
+                told[0] = Strength(clock(), heard.strength_db, asked_s=begun_s)
+                asked.clear()
+            return told[0]
+
+        return latest
+
+    sky = scanned(station(), slow)
+    (point,) = sky.guide.points
+    assert off_deg(sky, point) < BEAM_DEG / 30
+
+
 def test_a_receiver_that_has_never_told_anything_ends_the_scan() -> None:
     sky = scanned(station(), lambda _clock, _off_deg: lambda: None)
     assert "The receiver has told nothing for 5 s. No point is taken." in sky.text
