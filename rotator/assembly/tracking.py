@@ -49,7 +49,12 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     clock, simulated = SystemClock(), config.rotor.hardware == "sim"
     # A simulated rotor needs no right clock: it may track the sky of any moment.
     tracker = Tracker(
-        sky, planner, box, lambda: simulated or clock.is_set, why_no_plan=lambda: why_no_plan(config.sky, sky)
+        sky,
+        planner,
+        box,
+        lambda: simulated or clock.is_set,
+        why_no_plan=lambda: why_no_plan(config.sky, sky),
+        rest=lambda: follower.rest,
     )
     priorities = build_priorities(config)
 

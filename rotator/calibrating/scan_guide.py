@@ -93,7 +93,8 @@ class ScanGuide(SkyGuide):
         except (_Ended, NoPeak) as reason:
             self._halt()
             text = str(reason)
-            self._say(f"{text[0].upper()}{text[1:]}. No point is taken.")
+            end = "" if text.endswith("?") else "."
+            self._say(f"{text[0].upper()}{text[1:]}{end} No point is taken.")
             return
         self._say(*_told(found, self._facts.beam_deg))
         self._add(self._point(found))

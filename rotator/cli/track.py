@@ -46,7 +46,7 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
             raise CommandFailed(state.removeprefix("ended: "))
         if state.startswith("refused: "):
             raise CommandFailed(f"{state.removeprefix('refused: ')}; what was tracked goes on")
-        if state == "off":
+        if state == "off" or state.startswith("rests: "):
             return click.echo(_stays(words))
         tracks = _tracks(box)
     if tracks is None:
@@ -92,8 +92,8 @@ def _goes_on(box: RunningBox) -> str:
         return _sentence(tracks)
     if state == "planning":
         return "The box makes a plan."
-    why = state.removeprefix("ended: ")
-    return f"The box tracks nothing: {why}." if why != state else "The box tracks nothing."
+    _, _, why = state.partition(": ")
+    return f"The box tracks nothing: {why}." if why else "The box tracks nothing."
 
 
 def _planned(box: RunningBox) -> str:

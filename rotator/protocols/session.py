@@ -43,7 +43,7 @@ class Tracking(Protocol):
 
     @property
     def state(self) -> str:
-        """`off`, `planning`, `tracking`; `ended: ` or `refused: `, and the reason."""
+        """`off`, `planning`, `tracking`; `ended: `, `refused: ` or `rests: `, and the reason."""
 
 
 class Pairing(Protocol):

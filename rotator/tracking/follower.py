@@ -7,6 +7,7 @@ Knows the last order of another sender, and pauses after it. A target that a per
 from __future__ import annotations
 
 import logging
+import math
 import threading
 from collections.abc import Callable
 from typing import Protocol
@@ -15,14 +16,14 @@ from rotator.control.rights import QUIET, deed_of
 from rotator.control.sky.flight_plan import Antenna
 from rotator.exchange.orders import GiveBack, Mode, Order
 from rotator.exchange.sources import Source
-from rotator.exchange.status import Status
+from rotator.exchange.status import Status, time_left
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
 from rotator.tracking.next_flight import NextFlight, Now
 from rotator.tracking.next_followed import Upcoming, WantedOften
 from rotator.tracking.ports import TRACK, Box
 from rotator.tracking.tracked import Flown
-from rotator.tracking.tracker import Tracker
+from rotator.tracking.tracker import CLOCK_UNSURE, Tracker
 
 log = logging.getLogger(__name__)
 
@@ -30,6 +31,8 @@ REST_S = 600.0
 """Seconds without an order of another sender, before the plan goes on."""
 AGAIN_S = 600.0
 """Seconds until the plan is made again: elements and clock may have changed."""
+LOOKS_S = 10.0
+"""Seconds between two looks whether the elements have a target of the plan."""
 NOT_YET_S = 5.0
 """Seconds until the next try if an angle or the elements are not known yet."""
 
@@ -60,6 +63,12 @@ class Follower:
         self._followed = followed
         self._rests_until_s = 0.0 if begun_s is None else begun_s + REST_S
         """On the loop's clock."""
+        self._rests_after = "after its start"
+        self._follows_any = False
+        self._asked_s = -math.inf
+        """When it was last looked whether there is a target, on the loop's clock."""
+        self.rest = ""
+        """Why no pass is flown now, if no other display tells it; empty: one is, or there is no plan."""
         self._again_utc_s = 0.0
         """When to plan next."""
         self._changed = False
@@ -73,6 +82,7 @@ class Follower:
             rest_s = 0.0 if isinstance(order, GiveBack) else REST_S
             with self._lock:
                 self._rests_until_s = self._box.status().at_s + rest_s
+                self._rests_after = f"after an order of {source}"
 
     def plan_again(self) -> None:
         """From any thread: the targets or their priorities have changed. The present pass is flown to its end."""
@@ -83,13 +93,14 @@ class Follower:
         if self._changed:
             self._changed, self._again_utc_s = False, now.utc_s
         status = self._box.status()
+        self.rest = self._why_at_rest(now)
         if not self._may_fly(status, now):
             self._flown, self._again_utc_s = None, now.utc_s
             return
         if self._flown is not None:
             if reason := self._flown.lost(status, now):
                 log.warning("the plan rests: %s", reason)
-                self._rests_until_s = now.loop_s + REST_S
+                self._rests_until_s, self._rests_after = now.loop_s + REST_S, f"because {reason}"
             elif self._flown.clock_was_set(now):
                 self._fly_anew(now)
             elif now.utc_s >= self._flown.flight.end_utc_s:
@@ -105,6 +116,19 @@ class Follower:
         self._plan(now)
         if self._flown is None:
             self._tracker.end_planned()
+
+    def _why_at_rest(self, now: Now) -> str:
+        """A stop, a fault or a holder of the antenna is on every display, and needs no word here."""
+        left_s = self._rests_until_s - now.loop_s
+        if not self._tracker.following or (left_s <= 0.0 and self._tracker.clock_trusted()):
+            return ""
+        if not 0.0 <= now.loop_s - self._asked_s < LOOKS_S:
+            self._asked_s, self._follows_any = now.loop_s, bool(self._followed())
+        if not self._follows_any:
+            return ""
+        if not self._tracker.clock_trusted():
+            return CLOCK_UNSURE
+        return f"the plan rests for {time_left(left_s)} more, {self._rests_after}; `rotator track plan` ends that"
 
     def _may_fly(self, status: Status, now: Now) -> bool:
         return (

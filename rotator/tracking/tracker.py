@@ -17,9 +17,10 @@ from rotator.exchange.orders import BOTH, Aim, Order, Stop
 from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
+from rotator.tracking.next_flight import NeverRises, Now
 from rotator.tracking.ports import TRACK, Box, Finder, Planner
 from rotator.tracking.program import CannotFly, Program
+from rotator.tracking.request_plan import plan_of
 from rotator.tracking.system_clock import TOLD_S
 from rotator.tracking.tracked import NOTHING, Flown, Request, Tracked, ends_tracking
 
@@ -36,7 +37,7 @@ class Tracker:
     """`track`, `follow_plan`, `off` and `clock_is_right` may be called from any thread, `step` from one only.
 
     `clock_trusted`: whether the computer's clock counts as right without a person's word. `why_no_plan`: why there is
-    no plan of many passes; empty: there is one.
+    no plan of many passes; empty: there is one. `rest`: as `Follower.rest`.
     """
 
     def __init__(
@@ -45,13 +46,16 @@ class Tracker:
         planner: Planner,
         box: Box,
         clock_trusted: Callable[[], bool],
+        *,
         why_no_plan: Callable[[], str] = lambda: NO_PLAN,
+        rest: Callable[[], str] = lambda: "",
     ) -> None:
         self._finder = finder
         self._planner = planner
         self._box = box
         self._clock_trusted = clock_trusted
         self._why_no_plan = why_no_plan
+        self._rest = rest
         self.clock_told = False
         """A person has said that the clock is right."""
         self._lock = threading.Lock()
@@ -84,14 +88,16 @@ class Tracker:
 
     @property
     def state(self) -> str:
-        """`off`, `planning`, `tracking`, or `ended: ` and the reason.
+        """`off`, `planning`, `tracking`, or `ended: ` and the reason. `rests: `, and why the plan is not flown.
 
         `refused: ` and the reason: the latest request cannot be tracked, and the tracking before it goes on. While
         it is `tracking`, the status shows this flight, not the one before it.
         """
         status = self._box.status()
         with self._lock:
-            return self._tracked.text(status)
+            text, following = self._tracked.text(status), self._tracked.following
+        rest = self._rest() if text == "off" and following else ""
+        return f"rests: {rest}" if rest else text
 
     def track(self, words: str) -> str:
         """Begin to track. Returns why not; empty: it tracks."""
@@ -206,7 +212,7 @@ class Tracker:
 
     def _fly(self, request: Request, asked: int, now: Now) -> None:
         try:
-            flight, wanted = self._plan(request, now)
+            flight, wanted = plan_of(request, self._finder, self._planner, self._box.antenna(), now)
         except (Unknown, NotThere, NeverRises, CannotFly, RuntimeError) as reason:
             self._refuse(asked, request, str(reason))
             return
@@ -221,28 +227,6 @@ class Tracker:
                 self._order(flight.order)
         if taken:
             self._end(asked, request.words, f"{taken} moves the antenna")
-
-    def _plan(self, request: Request, now: Now) -> tuple[NextFlight, Wanted | None]:
-        antenna = self._box.antenna()
-        if antenna is None:
-            raise NotThere("the antenna's angles are not known")
-        if request.program:
-            return self._planner.plan_program(request.program, antenna, now), None
-        wanted = self._wanted(request)
-        return self._planner.plan(wanted, antenna, now), wanted
-
-    def _wanted(self, request: Request) -> Wanted:
-        """The target with its newest elements; while their file is gone, with those of the flight before."""
-        try:
-            if isinstance(wanted := self._finder.find(request.words), Wanted):
-                return wanted
-            raise Unknown(f'"{request.words}" is no moving target any more')  # without its file: a direction
-        except Unknown as reason:
-            before = request.flown.wanted if request.flown else None
-            if before is None:
-                raise
-            log.warning("%s; it is tracked on with the elements read before", reason)
-            return before
 
     def _refuse(self, asked: int, request: Request, reason: str) -> None:
         """The request cannot be planned. The tracking before it goes on; a flight of the request itself ends."""

@@ -83,7 +83,7 @@ PICTURE: Schema = object_of(
         "readings": the("of both sensors, as they come", list_of(or_null(NUMBER), 2)),
         "off_deg": the("from the target", or_null(NUMBER)),
         "starts": the("of the relays", or_null(WHOLE)),
-        "tracking": the("off, planning, tracking; ended: or refused: and why", TEXT),
+        "tracking": the("off, planning, tracking; ended:, refused: or rests: and why", TEXT),
         "rise_or_set": TEXT,
         "path": the("empty, or the key of the flight that /api/path has", TEXT),
         "stops": the("how often a person has stopped it since the program began", WHOLE),

@@ -132,14 +132,14 @@ def test_what_a_slow_receiver_heard_while_the_boom_still_turned_does_not_count(l
 
     def slow(clock: Callable[[], float], off_deg: Callable[[], float]) -> Callable[[], Strength | None]:
         tells = behind()(clock, off_deg)
-        asked: list[tuple[float, Strength]] = []
+        asked: list[tuple[float, Strength | None]] = []
         told: list[Strength | None] = [None]
 
         def latest() -> Strength | None:
             if not asked:
                 asked.append((clock(), tells()))
             begun_s, heard = asked[-1]
-            if clock() >= begun_s + late_s:
+            if heard is not None and clock() >= begun_s + late_s:
                 told[0] = Strength(clock(), heard.strength_db, asked_s=begun_s)
                 asked.clear()
             return told[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 
 import pytest
 
@@ -175,6 +176,28 @@ def test_a_request_for_the_plan_ends_its_rest(rise: Box, source: Source | None) 
     rise.wait(95.0)
     assert rise.loop.status.controlled_by == "track"
     assert rise.loop.status.held_by == ""
+
+
+def test_while_the_plan_is_not_flown_the_reason_is_told() -> None:
+    """Not where the file names no target, or a person tracks nothing."""
+    restarted = Box(FEBRUARY_S, follow=FOLLOWS_ISS, restarted=True)
+    told = r"rests: the plan rests for (10:00|9:\d\d) min more, after its start; .*"
+    assert re.fullmatch(told, restarted.tracker.state)
+    box = Box(FEBRUARY_S, follow=FOLLOWS_ISS)
+    assert box.tracker.state == "off"
+    box.loop.post(PC, Aim(100.0, 10.0))
+    box.wait(5.0)
+    assert box.tracker.state.startswith("rests: the plan rests for 9:5")
+    assert "after an order of gs232b#1" in box.tracker.state
+    box.tracker.off()
+    assert box.tracker.state == "off"
+    assert asks(box) == ""
+    box.wait(2.0)
+    assert box.tracker.state == "off", "it flies, and waits for the rise"
+    box.clock_trusted = False
+    box.wait(2.0)
+    assert box.tracker.state == f"rests: {CLOCK_UNSURE}"
+    assert Box(FEBRUARY_S, restarted=True).tracker.state == "off"
 
 
 def test_the_reason_why_the_plan_is_not_flown_is_logged() -> None:

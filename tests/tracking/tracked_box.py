@@ -112,7 +112,12 @@ class Box:
         self.tracked = tracked = SlowSensors(config, self.loop, mount)
         tracked.read_s = self.clock() + read_after_s
         self.tracker = Tracker(
-            sky, self.planner, tracked, lambda: self.clock_trusted, lambda: why_no_plan(config.sky, sky)
+            sky,
+            self.planner,
+            tracked,
+            lambda: self.clock_trusted,
+            why_no_plan=lambda: why_no_plan(config.sky, sky),
+            rest=lambda: self.follower.rest,
         )
         self._listener = StreamListener(
             sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted, wanted=lambda: in_use

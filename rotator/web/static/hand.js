@@ -96,6 +96,7 @@ export function ThereFromSky({ draft, say }) {
 function trackingSaid(tracking) {
   if (tracking === "planning") return "The next pass is planned …";
   if (tracking.startsWith("refused: ")) return `Not tracked: ${tracking.slice(9)}`;
+  if (tracking.startsWith("rests: ")) return `${tracking[7].toUpperCase()}${tracking.slice(8)}.`;
   return tracking.startsWith("ended") ? `Tracking has ${tracking}` : "";
 }
 

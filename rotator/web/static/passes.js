@@ -10,7 +10,7 @@ import { act, html, useEffect, useRef, useState } from "/ui.js";
 
 const EVERY_MS = 600_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, ROWS = 12, MOST_ROWS = 100;
 const BODIES = ["Sun", "Moon", "Mercury", "Venus", "Mars", "Jupiter", "Saturn"];
-const STATES = { off: "The box tracks nothing.", planning: "The box plans the next pass …", tracking: "The box tracks.", refused: "The box goes on with what it tracked." };
+const STATES = { off: "The box tracks nothing.", planning: "The box plans the next pass …", tracking: "The box tracks.", refused: "The box goes on with what it tracked.", rests: "The plan is not flown now." };
 
 function until(ms) {
   const minutes = Math.max(0, Math.round(ms / 60_000));
