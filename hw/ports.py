@@ -70,7 +70,7 @@ class PositionedDrive(Protocol):
         """The safe state: both axes decelerate and hold. From any thread."""
 
     def due_s(self) -> float | None:
-        """The next moment at which `enforce` has something to do; None: nothing moves."""
+        """When `enforce` is due; None: no axis moves."""
 
     def enforce(self, now_s: float) -> None:
         """Hold each axis whose command has expired. The guard calls this; it reads no sensor. Raises HardwareError."""

@@ -135,7 +135,7 @@ class RelayBank:
             self._plan(now_s)
 
     def due_s(self) -> float | None:
-        """The next moment at which `enforce` has something to do; None: nothing is on."""
+        """When `enforce` is due; None: no relay is on."""
         with self._lock:
             return self._due_s
 

@@ -34,7 +34,7 @@ BACK_OFF_S = (0.03, 2.0)
 """The shortest and the longest pause before the next attempt to connect, in seconds."""
 FIRST_ANSWER_S = 0.7
 """Seconds that `start` waits for the first answers at most. A healthy bus needs a tenth of that."""
-SAID_EVERY_S = 10.0
+LOGGED_EVERY_S = 10.0
 """Seconds between two log lines about a bad cable."""
 COMING_TO_REST_S = 2.0
 """The longest time, in seconds, for the motors to stop when the program ends."""
@@ -56,7 +56,7 @@ class MoteusBus:
         """Set when both controllers have answered, or when the first try has failed."""
         self._lively: bool
         """Whether a controller has answered on the present connection."""
-        self._said_s, self._unsaid = -math.inf, 0
+        self._logged_s, self._unsaid = -math.inf, 0
         self._lock = threading.Lock()
         self._waker: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
         self._thread = threading.Thread(target=self._run, name=MOTEUS_THREAD, daemon=True)
@@ -88,12 +88,12 @@ class MoteusBus:
 
     def _log_return(self, axis: Axis, gap_s: float) -> None:
         now_s = self._clock()
-        if now_s - self._said_s < SAID_EVERY_S:
+        if now_s - self._logged_s < LOGGED_EVERY_S:
             self._unsaid += 1
             return
         more = f"; {self._unsaid} more since the last such line" if self._unsaid else ""
         log.warning("%s: moteus answers again, after %.2f s of silence%s", axis.value, gap_s, more)
-        self._said_s, self._unsaid = now_s, 0
+        self._logged_s, self._unsaid = now_s, 0
 
     def _run(self) -> None:
         wait_s = BACK_OFF_S[0]

@@ -30,13 +30,13 @@ class Expiring(Protocol):
         """The safe state, from any thread. Raises HardwareError."""
 
     def due_s(self) -> float | None:
-        """The next moment at which `enforce` has something to do; None: no command can expire."""
+        """When `enforce` is due; None: no command can expire."""
 
     def enforce(self, now_s: float) -> None:
         """End each command that has expired. Raises HardwareError."""
 
     def wait_until_due(self, patience_s: float) -> None:
-        """Sleep until `enforce` has something to do, or something changed, but no longer than `patience_s`."""
+        """Sleep until `enforce` is due or a command has changed, but no longer than `patience_s`."""
 
 
 class Guard:

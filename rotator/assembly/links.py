@@ -173,8 +173,8 @@ def _report(link: Link, source: Source, shared: _Shared) -> Report | None:
     reporter = N1mmReport(Client(shared.loop, shared.mount, source), link.rotor_name)
 
     def due(now_s: float) -> bytes | None:
-        said = reporter.due(now_s)
-        shared.tap.note(source, Way.OUT, said or b"", text=True)
-        return said
+        datagram = reporter.due(now_s)
+        shared.tap.note(source, Way.OUT, datagram or b"", text=True)
+        return datagram
 
     return Report(address(link.status_to), due)

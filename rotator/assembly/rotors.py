@@ -54,12 +54,12 @@ class Assembly:
         named = {axis: self._named(axis) for axis in Axis}
         return {axis: sensor or (own or {})[axis] for axis, sensor in named.items()}
 
-    def first_deg(self, axis: Axis, said_deg: float) -> float:
+    def first_deg(self, axis: Axis, configured_deg: float) -> float:
         """The assumed start angle of an axis without feedback: that of the file.
 
         A simulation that begins anew starts at the true one.
         """
-        return said_deg if self.config.keeps_files else self.start_deg(axis)
+        return configured_deg if self.config.keeps_files else self.start_deg(axis)
 
     def _named(self, axis: Axis) -> AngleSensor | None:
         config, board = self.config, self.board

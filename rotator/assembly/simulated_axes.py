@@ -39,12 +39,12 @@ class SimulatedAxes:
 
     def start_deg(self, axis: Axis) -> float:
         """The start angle, on the rotor's own scale."""
-        table, said = self.config.axis(axis), self.sim(axis).start_deg
+        table, configured_deg = self.config.axis(axis), self.sim(axis).start_deg
         place = 0 if axis is Axis.AZIMUTH else 1
         if self.kept_deg is not None:
             return self.kept_deg[place]
         first_deg = self.first_deg[place]
-        return min(max(first_deg if said is None else said, table.min_deg), table.max_deg)
+        return min(max(first_deg if configured_deg is None else configured_deg, table.min_deg), table.max_deg)
 
     def sim(self, axis: Axis) -> SimAxisTable:
         return self.config.sim.of(axis)

@@ -37,7 +37,7 @@ AGAIN_S = 5.0
 
 
 class CompassAtStart:
-    """Give each reading to `see` while `wanted`. `trouble`: why the compass has not settled it; empty: nothing yet."""
+    """Give each reading to `see` while `wanted`. `trouble`: why the compass gives no angle; empty: not read yet."""
 
     def __init__(self, facts: NorthFacts) -> None:
         self.trouble = ""

@@ -80,7 +80,7 @@ def within_reach(mount: Mount, direction_deg: tuple[float, float], stands_deg: f
 
 
 def at_edge(heard: Sequence[Heard], middle: Beside, beam_deg: float) -> bool:
-    """Whether the middle is as far out as anything that was heard."""
+    """Whether the middle lies at the edge of the places that were scanned, so that the true one may lie beyond."""
     room = EDGE * beam_deg
     for at_deg, places in zip(
         middle, ([each.right_deg for each in heard], [each.above_deg for each in heard]), strict=True

@@ -22,7 +22,7 @@ MAX_LINE = 256
 
 class Receiver(Protocol):
     def latest(self) -> Strength | None:
-        """What it told last; None: nothing yet."""
+        """Its latest answer; None: it has not answered yet."""
 
     def start(self) -> None: ...
 
@@ -30,7 +30,7 @@ class Receiver(Protocol):
 
 
 class BadAddress(ValueError):  # noqa: N818 - a sentence for a person
-    """What is no address of a receiver."""
+    """The text is no address of a receiver."""
 
 
 def address(text: str) -> tuple[str, int]:

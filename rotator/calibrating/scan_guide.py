@@ -36,7 +36,7 @@ STANDS_S = 0.5
 LISTENS_S = 1.5
 LEAST_READINGS = 5
 SILENT_S = 5.0
-"""A receiver that tells nothing for this long is gone."""
+"""A receiver that gives no strength for this long is gone."""
 PASSES_BY = 1 / 8
 """A target that has moved on by this part of the beam ends the listening at a place."""
 MOST_DOUBT = 1 / 8
@@ -56,7 +56,7 @@ class ScanGuide(SkyGuide):
         super().__init__(facts)
         self._strength: Strength | None = None
         self._good_s: float | None = None
-        """When the receiver last told a strength; before it has told one, since when it is waited for."""
+        """When the receiver last gave a strength; before the first one, when the wait for it began."""
         self._came = {Axis.AZIMUTH: 0, Axis.ELEVATION: 0}
         """Which way each axis turned last."""
 
@@ -168,12 +168,12 @@ class ScanGuide(SkyGuide):
         return Heard(right_deg, above_deg, sum(told) / len(told), self._came[Axis.AZIMUTH], came_up)
 
     def _receiver_hears(self) -> None:
-        """Raises _Ended where it has told no strength for long, or none at all."""
+        """Raises _Ended where it has given no strength for long, or none at all."""
         if self._good_s is None:
             self._good_s = self._now_s
         if self._now_s - self._good_s > SILENT_S:
             problem = self._strength.problem if self._strength else ""
-            raise _Ended(problem or f"the receiver has told nothing for {SILENT_S:.0f} s")
+            raise _Ended(problem or f"the receiver has given no strength for {SILENT_S:.0f} s")
 
     def _beside(self) -> Beside:
         """Where the target seems to be from the boom, by the model in force."""

@@ -21,7 +21,7 @@ SHOWN = 40
 
 @dataclass(frozen=True, slots=True)
 class Strength:
-    """What the receiver told at this moment. `problem`: why it tells nothing; empty: it does.
+    """The receiver's answer at this moment. `problem`: why it has no strength; empty: it has one.
 
     `asked_s`: when it was asked; None: at this moment. It may answer seconds later, of any moment in between.
     """

@@ -95,8 +95,8 @@ class TableGuide(AxisGuide):
                         if point is not None:
                             longer = table.with_end(point)
                             off_deg = point.angle_deg - proposed_deg
-                            what = f"the file has {proposed_deg:g}° for this end"
-                            if (yield from self._is_meant(point, off_deg, what)):
+                            why = f"the file has {proposed_deg:g}° for this end"
+                            if (yield from self._is_meant(point, off_deg, why)):
                                 return longer
                     except NotTrusted as reason:
                         self._say(f"Refused: {reason}.")
@@ -131,11 +131,11 @@ class TableGuide(AxisGuide):
                 case _ if not isinstance(event, AxisMoved):
                     self._say(self._accepts)
 
-    def _is_meant(self, point: TablePoint, off_deg: float, what: str) -> Generator[None, None, bool]:
+    def _is_meant(self, point: TablePoint, off_deg: float, why: str) -> Generator[None, None, bool]:
         """Ask about an angle that is far from what was to be expected: a digit may be missing."""
         if abs(off_deg) < SURPRISING_DEG:
             return True
-        self._say(f"{point.angle_deg:g}° is {abs(off_deg):.0f}° off: {what}.")
+        self._say(f"{point.angle_deg:g}° is {abs(off_deg):.0f}° off: {why}.")
         return (yield from self._agrees(f"Is {point.angle_deg:g}° right? y or n:"))
 
     def _read(self, proposed_deg: float | None) -> Generator[None, None, TablePoint | None]:

@@ -47,26 +47,26 @@ _NEGATIVE = re.compile(r"-[0-9.,].*")
 
 
 class Number(click.ParamType[float]):
-    """A number as a person types it: a decimal comma is a decimal point. `what`: its unit."""
+    """A number as a person types it: a decimal comma is a decimal point. `unit`: what it counts, such as degrees."""
 
-    def __init__(self, what: str, least: float = -math.inf, most: float = math.inf) -> None:
-        self.name = self._what = what
+    def __init__(self, unit: str, least: float = -math.inf, most: float = math.inf) -> None:
+        self.name = self._unit = unit
         self._least, self._most = least, most
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         if isinstance(value, float):
             return value
         text = value.replace(MINUS, "-").strip()
-        for unit in _UNITS.get(self._what, ()):
+        for unit in _UNITS.get(self._unit, ()):
             if text.endswith(unit) and (bare := text.removesuffix(unit).rstrip()):
                 text = bare
                 break
         if not _NUMBER.fullmatch(text):
-            self.fail(f"{text[:40]!r} is no number of {self._what}; write it like 38.5 or 38,5", param, ctx)
+            self.fail(f"{text[:40]!r} is no number of {self._unit}; write it like 38.5 or 38,5", param, ctx)
         number = float(text.replace(",", "."))
         if not self._least <= number <= self._most:
             most = "" if math.isinf(self._most) else f", {self._most:g} at most"
-            self.fail(f"{text} {self._what}: {self._least:g} at least{most}", param, ctx)
+            self.fail(f"{text} {self._unit}: {self._least:g} at least{most}", param, ctx)
         return number
 
 

@@ -104,20 +104,20 @@ def _travel(path: Path | None, words: str, *, wait: bool) -> BoxStatus | None:
     return after
 
 
-def _judge(after: BoxStatus, ours: str, axes: Sequence[str], what: str) -> None:
+def _judge(after: BoxStatus, ours: str, axes: Sequence[str], order: str) -> None:
     """Raises CommandFailed where an axis did not do what was ordered. `ours`: this command, as the box calls it."""
     if failed := faults(after, axes):
         click.echo(f"{', '.join(stands(after, axis) for axis in AXES)}.")
         raise CommandFailed("\n         ".join(failed), FAULTY)
     if after["stopped_by"] and not after["storm_park"]:
         raise CommandFailed(
-            f"{what} was ended: stopped by {sender(after['stopped_by'])}; nothing moves until `rotator resume`"
+            f"{order} was ended: stopped by {sender(after['stopped_by'])}; nothing moves until `rotator resume`"
         )
     mover = str(after["moved_by"] or "")
     if not mover.startswith(CONSOLE) or (ours and mover != ours):
         other = "another command" if mover.startswith(CONSOLE) else sender(mover)
         ended = f"{other} moves the antenna now" if mover else "the antenna was stopped"
-        raise CommandFailed(f"{what} was ended: {ended}")
+        raise CommandFailed(f"{order} was ended: {ended}")
 
 
 def _watched(

@@ -55,10 +55,10 @@ def near(words: Sequence[str]) -> list[str]:
 def plain(text: str) -> str:
     """Without pictures; a link to another page is the command that prints it."""
     text = re.sub(r"^!\[.*\n\n?", "", text, flags=re.MULTILINE)
-    return _LINK.sub(_said, text)
+    return _LINK.sub(_link_text, text)
 
 
-def _said(link: re.Match[str]) -> str:
+def _link_text(link: re.Match[str]) -> str:
     label, to = link.groups()
     page, _, heading = to.partition("#")
     if "://" in to or not (page.endswith(".md") or heading):

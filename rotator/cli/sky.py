@@ -30,9 +30,9 @@ from rotator.orbits.passes import passes as passes_of
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Target, beyond_beam, expected_error_deg, motion
 from rotator.orbits.targets import find
-from rotator.tracking.system_clock import TOLD_S, SystemClock
+from rotator.tracking.system_clock import ASSUMED_ERROR_S, SystemClock
 
-UNSET = f"This computer's clock has reached no time server: {TOLD_S:g} s of error are counted for it."
+UNSET = f"This computer's clock has reached no time server: {ASSUMED_ERROR_S:g} s of error are counted for it."
 NO_PASS = "no pass in this time"
 
 
@@ -46,7 +46,7 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
     except (Unknown, NotThere) as reason:
         raise CommandFailed(str(reason)) from None
     if as_json:
-        told = {
+        fields = {
             "name": target.name,
             "at": iso(at_s),
             "az_deg": round(seen.sight.azimuth_deg, 4),
@@ -56,7 +56,7 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
             "range_km": _km(seen.sight.range_km),
             "expected_error_deg": round(error_deg, 4),
         }
-        click.echo(json.dumps(told))
+        click.echo(json.dumps(fields))
         return
     sight = seen.sight
     far = "" if math.isinf(sight.range_km) else f", {sight.range_km:,.0f} km away"
@@ -165,7 +165,7 @@ def clock_error_s(config: Config) -> float:
     if config.rotor.hardware == "sim":
         return 0.0
     click.echo(UNSET, err=True)
-    return TOLD_S
+    return ASSUMED_ERROR_S
 
 
 def _warn(errors: Iterable[tuple[str, float]], config: Config) -> None:

@@ -43,7 +43,7 @@ class AxisTable(Table):
     """The time to cool fully after that. The motor may run again after half of it."""
 
     @model_validator(mode="after")
-    def _make_sense(self) -> AxisTable:
+    def _limits_and_calibration_fit(self) -> AxisTable:
         if self.min_deg >= self.max_deg:
             raise ValueError(self._limits_fault())
         if self.lowest_reading >= self.highest_reading:

@@ -28,7 +28,7 @@ class ForbiddenTable(Table):
     """Kept free on all sides: for the gears' play, the sensor's error, wind."""
 
     @model_validator(mode="after")
-    def _rises(self) -> ForbiddenTable:
+    def _both_spans_rise(self) -> ForbiddenTable:
         for key, (low_deg, high_deg) in self._spans().items():
             if low_deg >= high_deg:
                 raise ValueError(

@@ -46,20 +46,20 @@ def _tables(path: tuple[str, ...], model: type[BaseModel]) -> Iterator[dict[str,
 def _key(key: str, field: FieldInfo) -> dict[str, Any]:
     kind, limits = bare(field.annotation, list(field.metadata))
     choices = list(get_args(kind)) if get_origin(kind) is Literal else None
-    told: dict[str, Any] = {
+    question: dict[str, Any] = {
         "key": key,
         "kind": "choice" if choices else _KINDS.get(kind, "numbers"),
         "meaning": field.description,
         "needed": field.is_required(),
     }
     if choices:
-        told["choices"] = choices
+        question["choices"] = choices
     if kind is int and (name := next((name for name, known in NAMED.items() if known == limits), "")):
-        told["named"] = name
+        question["named"] = name
     if unit := next((unit for ending, unit in _UNITS.items() if key.endswith(ending)), ""):
-        told["unit"] = unit
+        question["unit"] = unit
     if kind in (int, float):
-        told |= {
+        question |= {
             word: getattr(limit, edge) for limit in limits for edge, word in _EDGES.items() if hasattr(limit, edge)
         }
-    return told
+    return question

@@ -133,7 +133,7 @@ class Link(Table):
         return self
 
     @model_validator(mode="after")
-    def _moves_are_told_in_text(self) -> Link:
+    def _moves_are_reported_on_gs232(self) -> Link:
         if self.report_moves and self.protocol not in ("gs232a", "gs232b"):
             raise ValueError(f"report_moves is for gs232a and gs232b, not for {self.protocol}")
         return self

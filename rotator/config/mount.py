@@ -38,14 +38,14 @@ class MountTable(Table):
     """How the mount really stands, as `rotator calibrate sky` finds it."""
 
     @model_validator(mode="after")
-    def _knows_north(self) -> MountTable:
+    def _magnetic_needs_declination(self) -> MountTable:
         if self.north == "magnetic" and self.declination_deg is None:
             raise ValueError('north = "magnetic" needs declination_deg, how far east of true north a compass points')
         return self
 
     @field_validator("horizon")
     @classmethod
-    def _goes_round(cls, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    def _horizon_rises(cls, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
         azimuths = [azimuth_deg for azimuth_deg, _ in points]
         if any(not 0 <= azimuth_deg < 360 for azimuth_deg in azimuths) or azimuths != sorted(set(azimuths)):
             raise ValueError("azimuths must rise from point to point, from 0 to below 360")

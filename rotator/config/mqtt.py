@@ -47,7 +47,7 @@ class MqttTable(Table):
         return text
 
     @model_validator(mode="after")
-    def _logs_in_as_somebody(self) -> MqttTable:
+    def _password_goes_with_user(self) -> MqttTable:
         if self.password is not None and self.user is None:
             raise ValueError("password goes with user, the name under which the box logs in")
         return self

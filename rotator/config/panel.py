@@ -145,11 +145,11 @@ class PanelTable(Table):
     def _fitted(self, keys: tuple[str, ...]) -> dict[str, int]:
         return {key: place for key in keys if (place := getattr(self, key)) is not None}
 
-    def _twice(self, what: str, keys: tuple[str, ...]) -> list[str]:
+    def _twice(self, kind: str, keys: tuple[str, ...]) -> list[str]:
         users: dict[int, list[str]] = {}
         for key, place in self._fitted(keys).items():
             users.setdefault(place, []).append(key)
-        return [f"{what} {place} is used by {' and '.join(names)}" for place, names in users.items() if len(names) > 1]
+        return [f"{kind} {place} is used by {' and '.join(names)}" for place, names in users.items() if len(names) > 1]
 
 
 class LimitsTable(Table):

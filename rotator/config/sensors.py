@@ -60,7 +60,7 @@ class SensorTable(Table):
         return [I2CChip(*self.i2c, key, self.kind.upper())] if self.i2c else []
 
     @model_validator(mode="after")
-    def _stands(self) -> SensorTable:
+    def _arrows_differ(self) -> SensorTable:
         if self.forward[1] == self.up[1]:
             raise ValueError(f'forward = "{self.forward}" and up = "{self.up}" are the same axis of the board')
         return self

@@ -64,7 +64,7 @@ class SkyTable(Table):
         return networks(texts)
 
     @model_validator(mode="after")
-    def _allowed_what(self) -> SkyTable:
+    def _allow_goes_with_serve(self) -> SkyTable:
         if self.allow is not None and self.serve is None:
             raise ValueError('allow is for serve, which says where others fetch: serve = "0.0.0.0:8233"')
         return self

@@ -149,7 +149,7 @@ class Movements:
             self.park()
 
     def _busy(self, now_s: float) -> bool:
-        """Whether the antenna turns, or waits for something and will then turn on by itself."""
+        """Whether the antenna turns, or will turn on by itself when a relay may close or a motor is cool."""
         if self.timed.running or self._homing.active or self._aiming.flown is not None:
             return True
         return any(

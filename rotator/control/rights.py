@@ -153,7 +153,7 @@ def hindrance(states: Iterable[State], deed: Deed) -> State | None:
 
 
 def deed_of(order: Order) -> Deed | None:
-    """The table's row for an order; None: it only tells something, as `Leave` and `Remark` do."""
+    """The table's row for an order; None: the order only reports, as `Leave` and `Remark` do."""
     match order:
         case Aim() | Fly() | LoadTimed() | RunTimed() | Calibrate():
             return Deed.AIM

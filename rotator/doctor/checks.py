@@ -169,9 +169,9 @@ def _of_station(
         yield from _safely(check.look, machine, config)
 
 
-def _safely(look: Callable[..., Iterator[Finding]], *what: Any) -> Iterator[Finding]:
+def _safely(look: Callable[..., Iterator[Finding]], *arguments: Any) -> Iterator[Finding]:
     try:
-        yield from look(*what)
+        yield from look(*arguments)
     except Exception as fault:  # A bug in one check must not hide the others.
         yield wrong(
             f"the check itself failed: {type(fault).__name__}: {fault}", "A bug of this program: please report it."

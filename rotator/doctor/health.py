@@ -37,34 +37,34 @@ def power(machine: Machine) -> Iterator[Finding]:
         return
     now = [word for bit, word in THROTTLED.items() if bits >> bit & 1]
     before = [word for bit, word in THROTTLED.items() if bits >> SINCE_START + bit & 1 and word not in now]
-    said = [f"{word} now" for word in now] + [f"{word} since the start" for word in before]
-    found = f"{', '.join(said) or 'no sag since the start'} (0x{bits:x})"
+    report = [f"{word} now" for word in now] + [f"{word} since the start" for word in before]
+    found = f"{', '.join(report) or 'no sag since the start'} (0x{bits:x})"
     sagged = (bits | bits >> SINCE_START) & UNDER_VOLTAGE
     if bits & UNDER_VOLTAGE:
         yield wrong(found, SUPPLY)
-    elif said:
+    elif report:
         yield warn(found, SUPPLY if sagged else "The Pi is or was too hot: give it air or a heat sink.")
     else:
         yield fine(found)
 
 
 def _throttled(machine: Machine) -> int | None:
-    said = machine.says("vcgencmd", "get_throttled")
-    if said is None:
+    report = machine.says("vcgencmd", "get_throttled")
+    if report is None:
         files = machine.glob("/sys/devices/platform/soc*/*firmware/get_throttled")
-        said = machine.text(files[0]) if files else None
+        report = machine.text(files[0]) if files else None
     try:
-        return None if said is None else int(said.removeprefix("throttled="), 16)
+        return None if report is None else int(report.removeprefix("throttled="), 16)
     except ValueError:
         return None
 
 
 def temperature(machine: Machine) -> Iterator[Finding]:
-    said = machine.text("/sys/class/thermal/thermal_zone0/temp")
-    if said is None or not said.lstrip("-").isdigit():
+    report = machine.text("/sys/class/thermal/thermal_zone0/temp")
+    if report is None or not report.lstrip("-").isdigit():
         yield skipped("this computer does not report it")
         return
-    celsius = int(said) / 1000
+    celsius = int(report) / 1000
     if celsius >= HOT_C:
         yield warn(f"{celsius:.0f} °C", "The Pi slows down from 80 °C on: give it air, shade or a heat sink.")
     else:
@@ -72,12 +72,12 @@ def temperature(machine: Machine) -> Iterator[Finding]:
 
 
 def clock(machine: Machine) -> Iterator[Finding]:
-    said = machine.says("timedatectl", "show", "--property=NTPSynchronized", "--value")
-    if said == "yes" or machine.at("/run/systemd/timesync/synchronized").exists():
+    report = machine.says("timedatectl", "show", "--property=NTPSynchronized", "--value")
+    if report == "yes" or machine.at("/run/systemd/timesync/synchronized").exists():
         yield fine("set by the network")
     elif (tracking := machine.says("chronyc", "-n", "tracking")) and "Not synchronised" not in tracking:
         yield fine("set by chrony")
-    elif said is None and tracking is None:
+    elif report is None and tracking is None:
         yield skipped("this computer does not report what sets it")
     else:
         yield warn(
@@ -109,11 +109,11 @@ def service(machine: Machine) -> Iterator[Finding]:
     if machine.unit is None:
         yield skipped("not installed: rotator run is started by hand")
         return
-    said = machine.says("systemctl", "show", "rotator.service", "--property=UnitFileState,ActiveState,SubState")
-    if said is None:
+    report = machine.says("systemctl", "show", "rotator.service", "--property=UnitFileState,ActiveState,SubState")
+    if report is None:
         yield skipped("installed; systemd does not answer here")
         return
-    state = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
+    state = dict(line.split("=", 1) for line in report.splitlines() if "=" in line)
     enabled, active = state.get("UnitFileState", ""), state.get("ActiveState", "")
     found = f"{active} ({state.get('SubState', '')}), {enabled}"
     if active == "failed" or state.get("SubState") == "auto-restart":

@@ -228,7 +228,7 @@ NOTICED_FOR_S = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """Something that a person should know of an axis though it stops nothing."""
+    """A remark on an axis, for a person. It stops no motor."""
 
     text: str
     lcd: str = ""

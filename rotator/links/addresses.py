@@ -23,12 +23,12 @@ def addresses() -> tuple[ipaddress.IPv4Interface, ...]:
         for _, name in socket.if_nameindex():
             if not name.startswith(_NO_LAN):
                 with suppress(OSError):
-                    address, mask = (_asked(any_socket, what, name) for what in (_ADDRESS, _NETMASK))
+                    address, mask = (_asked(any_socket, request, name) for request in (_ADDRESS, _NETMASK))
                     found.append(ipaddress.IPv4Interface(f"{address}/{mask}"))
     return tuple(found)
 
 
-def _asked(any_socket: socket.socket, what: int, name: str) -> str:
+def _asked(any_socket: socket.socket, request: int, name: str) -> str:
     """The answer of the kernel on a network card. Raises OSError for one without an address."""
-    answer = fcntl.ioctl(any_socket.fileno(), what, struct.pack("256s", name.encode()[:15]))
+    answer = fcntl.ioctl(any_socket.fileno(), request, struct.pack("256s", name.encode()[:15]))
     return socket.inet_ntoa(answer[20:24])

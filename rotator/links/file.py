@@ -44,12 +44,12 @@ class FileLink:
         conversation = Conversation(self._session(), self.wire, lambda _reply: None)
         leaving = threading.Event()
 
-        def found(what: bytes | str) -> None:
+        def found(content: bytes | str) -> None:
             if leaving.is_set():
                 return
-            self._tell("" if isinstance(what, bytes) else what)
-            if isinstance(what, bytes):
-                conversation.received(what)
+            self._tell("" if isinstance(content, bytes) else content)
+            if isinstance(content, bytes):
+                conversation.received(content)
 
         def watch() -> None:
             """Runs in a separate thread, because a read from a lost network share may never return."""

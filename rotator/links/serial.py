@@ -119,9 +119,9 @@ class SerialLink:
         # Set only once: over rfc2217:// every change of a setting is a negotiation with the other end.
         port.timeout = URL_POLL_S
 
-        def arrive(what: bytes | str) -> None:
+        def arrive(arrival: bytes | str) -> None:
             with suppress(RuntimeError):  # the event loop has ended meanwhile
-                loop.call_soon_threadsafe(arrivals.put_nowait, what)
+                loop.call_soon_threadsafe(arrivals.put_nowait, arrival)
 
         def listen() -> None:
             while not leaving.is_set():

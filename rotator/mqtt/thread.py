@@ -119,8 +119,8 @@ class MqttThread:
         client = self._new_client()
         self._let_in, self._refused = False, ""
         client.connect(self._broker.host, self._broker.port, keepalive=KEEP_ALIVE_S)
-        begun_s = told_s = time.monotonic()
-        told = ""
+        begun_s = sent_s = time.monotonic()
+        sent = ""
         while not self._stopping.is_set():
             if (result := client.loop(LOOK_S)) != 0:
                 raise ConnectionError(self._refused or f"the connection was lost ({result.name})")
@@ -128,18 +128,18 @@ class MqttThread:
             if not self._let_in:
                 if now_s - begun_s > ANSWERED_S:
                     raise ConnectionError("it does not let the box in")
-            elif not told or now_s - told_s >= TELL_EVERY_S:
-                told, told_s = self._tell(client, told), now_s
+            elif not sent or now_s - sent_s >= TELL_EVERY_S:
+                sent, sent_s = self._send(client, sent), now_s
         if self._let_in:
             client.publish(self._topics.availability, OFFLINE, retain=True)
             client.loop(LOOK_S)
         client.disconnect()
         client.loop(LOOK_S)
 
-    def _tell(self, client: Client, told: str) -> str:
+    def _send(self, client: Client, sent: str) -> str:
         """Send the status if it has changed. Returns the status that was sent last."""
         text = json.dumps(self._status(), ensure_ascii=False)
-        if text != told:
+        if text != sent:
             client.publish(self._topics.status, text, retain=True)
         return text
 

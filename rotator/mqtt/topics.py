@@ -74,14 +74,14 @@ def discovery(topics: Topics, may: str) -> Iterator[tuple[str, str]]:
     device = {"identifiers": [box], "name": "Antenna rotator", "model": "gs232-rotator", "sw_version": __version__}
     common = {"availability_topic": topics.availability, "device": device, "origin": {"name": "gs232-rotator"}}
 
-    def entity(kind: str, name: str, said: dict[str, Any]) -> tuple[str, str]:
-        whole = {**said, "unique_id": f"{box}_{name}", "object_id": f"{box}_{name}", **common}
+    def entity(kind: str, name: str, fields: dict[str, Any]) -> tuple[str, str]:
+        whole = {**fields, "unique_id": f"{box}_{name}", "object_id": f"{box}_{name}", **common}
         return f"{PREFIX}/{kind}/{box}/{name}/config", json.dumps(whole, ensure_ascii=False)
 
-    for name, said in _SENSORS.items():
-        yield entity("sensor", name, {**said, **_ANGLE, "state_topic": topics.status})
-    for name, said in _BINARY.items():
-        yield entity("binary_sensor", name, {**said, "state_topic": topics.status})
+    for name, fields in _SENSORS.items():
+        yield entity("sensor", name, {**fields, **_ANGLE, "state_topic": topics.status})
+    for name, fields in _BINARY.items():
+        yield entity("binary_sensor", name, {**fields, "state_topic": topics.status})
     for method, (name, icon, rights) in _BUTTONS.items():
         if may in rights:
             yield entity("button", method, {"name": name, "icon": icon, "command_topic": topics.order(method)})

@@ -1,4 +1,4 @@
-"""Where something in the sky is, as a station sees it at one moment; and what every target has in common.
+"""Where a target in the sky is, as a station sees it at one moment; and what every target has in common.
 
 Knows directions and how fast they change. Does not know orbits.
 """
@@ -35,7 +35,7 @@ class Sight:
 
 
 class Target(Protocol):
-    """Something that has a place in the sky of a station at every moment."""
+    """A target has a place in the sky of a station at every moment."""
 
     @property
     def name(self) -> str: ...

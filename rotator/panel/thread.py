@@ -223,15 +223,15 @@ class PanelThread:
         else:
             self._keep_again_s = now_s + AGAIN_S
 
-    def _trouble(self, what: str, text: str) -> None:
+    def _trouble(self, part: str, text: str) -> None:
         """Log a fault of a part once when it begins and once when it ends."""
-        if bool(text) == bool(self._troubles.get(what)):
+        if bool(text) == bool(self._troubles.get(part)):
             return
-        self._troubles[what] = text
+        self._troubles[part] = text
         if text:
-            log.error("panel: %s: %s", what, text)
+            log.error("panel: %s: %s", part, text)
         else:
-            log.warning("panel: %s: answers again", what)
+            log.warning("panel: %s: answers again", part)
 
     def _run(self, work: Callable[[float], None], period_s: float) -> None:
         try:

@@ -44,7 +44,7 @@ class Ask(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Track:
-    """Track what these words name. `off`: nothing any more. No words: tell what goes on."""
+    """Track the target of these words. `off`: track no target. No words: ask what the box tracks."""
 
     words: str
 
@@ -72,9 +72,9 @@ class ClockIsRight:
 class Pair:
     """What to do with the browsers that may move the antenna: "" begins to pair one; `list`, `token`, `revoke`."""
 
-    what: str = ""
-    which: str = ""
-    """The name of a new token, or the number of what to revoke."""
+    action: str = ""
+    subject: str = ""
+    """The name of a new token, or the number of the pairing to revoke."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -85,9 +85,9 @@ def encode(command: Command, model: Model) -> bytes:
     return b"\x02" + f"{letter}{command.verb}{'' if command.number is None else command.number}\r".encode()
 
 
-def reply(axis: Axis, verb: str, said: str, model: Model) -> bytes:
-    """STX, axis, the command's letter, an angle where it was asked for, and the state; commas between them."""
-    return b"\x02" + f"{_letter(axis, model)},{verb},{said}\r".encode()
+def reply(axis: Axis, verb: str, value: str, model: Model) -> bytes:
+    """STX, axis, the command's letter, and `value`: the state, and before it an angle where it was asked for."""
+    return b"\x02" + f"{_letter(axis, model)},{verb},{value}\r".encode()
 
 
 def _letter(axis: Axis, model: Model) -> str:
@@ -133,18 +133,18 @@ class ProsistelSession:
         match command:
             case Command(axis, "?"):
                 self._stopped = stopped
-                said = self._angle(axis)
+                value = self._angle(axis)
             case Command(axis, "G", int() as number) if number in self._form.stops:
                 self._box.order(Stop() if stopped not in (None, axis) else Stop((axis,)))
                 self._stopped = axis
-                said = "R"
+                value = "R"
             case Command(axis, "G", int() as number):
                 angle_deg = number / self._form.per_degree
                 order = aim(angle_deg, None) if axis is Axis.AZIMUTH else aim(None, angle_deg)
-                said = UNKNOWN if self._box.order(order) else "R"
+                value = UNKNOWN if self._box.order(order) else "R"
             case Command(axis):
-                said = "R"
-        return reply(axis, command.verb, said, self._model)
+                value = "R"
+        return reply(axis, command.verb, value, self._model)
 
     def _angle(self, axis: Axis) -> str:
         status = self._box.status().axis(axis)

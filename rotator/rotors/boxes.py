@@ -53,7 +53,7 @@ class BoxRotor(PositionedRotor):
 
     def condition(self, axis: Axis) -> Condition:
         astray_deg, barred = self._boxes.astray_deg(axis), self._boxes.barred
-        measured = f"it turned {astray_deg:.1f}° otherwise than its control box was told"
+        measured = f"it turned {astray_deg:.1f}° away from the angle that was sent to its control box"
         unseen_s = self._boxes.unseen_s()
         assumed = None if self._boxes.position_known(axis) else ASSUMED
         if barred and not astray_deg:

@@ -23,10 +23,10 @@ def dead_threads(tell: Callable[[HardwareError], None]) -> Iterator[None]:
     The exception goes into the log, also when the thread dies while the box ends.
     """
 
-    def died(what: threading.ExceptHookArgs) -> None:
-        name = what.thread.name if what.thread else "unknown"
+    def died(death: threading.ExceptHookArgs) -> None:
+        name = death.thread.name if death.thread else "unknown"
         dead = HardwareError(f"the thread {name!r} has ended by a mistake of the program")
-        log.error("%s; please report it", dead, exc_info=what.exc_value)
+        log.error("%s; please report it", dead, exc_info=death.exc_value)
         tell(dead)
 
     before, threading.excepthook = threading.excepthook, died

@@ -14,7 +14,7 @@ from rotator.rotors.port import Rotor
 
 log = logging.getLogger(__name__)
 
-SAID_S = 60.0
+SHOWN_S = 60.0
 """The status says for this time that an errand has failed."""
 
 
@@ -27,23 +27,23 @@ class Errands:
     def run(self, errands: Iterable[Errand], now_s: float) -> None:
         """Carry the errands out. A refused one is logged and in `notices`: the answer to its order was sent before."""
         for errand in errands:
-            name = _name(errand)
+            failure = _failure(errand)
             try:
                 self._rotor.run(errand)
-                self._failed.pop(name, None)
+                self._failed.pop(failure, None)
             except HardwareError as fault:
-                log.error("%s: %s", name, fault)
-                self._failed[name] = (now_s, str(fault))
+                log.error("%s: %s", failure, fault)
+                self._failed[failure] = (now_s, str(fault))
 
     def notices(self, now_s: float) -> tuple[str, ...]:
         """What has failed lately, for the status."""
         if not self._failed:
             return ()
-        self._failed = {name: failed for name, failed in self._failed.items() if now_s - failed[0] < SAID_S}
-        return tuple(f"{name}: {why}" for name, (_, why) in self._failed.items())
+        self._failed = {failure: failed for failure, failed in self._failed.items() if now_s - failed[0] < SHOWN_S}
+        return tuple(f"{failure}: {why}" for failure, (_, why) in self._failed.items())
 
 
-def _name(errand: Errand) -> str:
+def _failure(errand: Errand) -> str:
     """The failure of this errand, in words for a person."""
     match errand:
         case Acknowledge(axis):

@@ -40,11 +40,11 @@ class OwnProcess:
         self._lock = threading.Lock()
         """Held while the process starts, ends or is closed, because several threads may do that."""
 
-    def compute(self, job: Callable[..., Result], *given: Any) -> Result:
+    def compute(self, job: Callable[..., Result], *arguments: Any) -> Result:
         """Raises what the job raises; RuntimeError where the process fails; ValueError where it lacks memory."""
         try:
             pipe = self._pipe or self._start()
-            pipe.send((job, given))
+            pipe.send((job, arguments))
             if not pipe.poll(self._longest_s):
                 raise TimeoutError(f"it takes longer than {self._longest_s:g} s")
             done, answer = pipe.recv()
@@ -101,9 +101,9 @@ def _work(pipe: Connection) -> None:
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     with suppress(EOFError, OSError):  # the box has ended
         while True:
-            job, given = pipe.recv()
+            job, arguments = pipe.recv()
             try:
-                answer = True, job(*given)
+                answer = True, job(*arguments)
             except MemoryError:
                 answer = False, ValueError("it needs too much memory")
             except Exception as failure:

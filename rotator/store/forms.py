@@ -38,12 +38,18 @@ class Form:
 
     def brought_up(self, content: object) -> dict[str, Any]:
         """The content in the present form. Raises LaterFormError; ValueError: it belongs to another file."""
-        said = content.get("format") if isinstance(content, dict) else None
-        found = re.fullmatch(rf"{re.escape(self.name)} ([1-9]\d{{0,5}})", said) if isinstance(said, str) else None
+        format_name = content.get("format") if isinstance(content, dict) else None
+        found = (
+            re.fullmatch(rf"{re.escape(self.name)} ([1-9]\d{{0,5}})", format_name)
+            if isinstance(format_name, str)
+            else None
+        )
         if not isinstance(content, dict) or found is None:
             raise ValueError(f"its format is not {self.today!r}")
         if (number := int(found[1])) > self._number:
-            raise LaterFormError(f"a later version of the program wrote it: its format is {said!r}, not {self.today!r}")
+            raise LaterFormError(
+                f"a later version of the program wrote it: its format is {format_name!r}, not {self.today!r}"
+            )
         for step in self.steps[number - 1 :]:
             content = step(content)
         return content

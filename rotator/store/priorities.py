@@ -40,8 +40,8 @@ class Priorities:
     def __init__(self, path: Path) -> None:
         self._file = JsonFile(path, FORM, "the order of the plan")
         nothing: Mapping[str, Changed] = {}
-        told = "the plan has the priorities of the configuration"
-        self._changed = self._file.load(_changes, absent=nothing, damaged=nothing, consequence=told)
+        without = "the plan has the priorities of the configuration"
+        self._changed = self._file.load(_changes, absent=nothing, damaged=nothing, consequence=without)
 
     def of(self, name: str, written: float) -> float:
         """The present priority of a target. `written`: its priority in the configuration."""

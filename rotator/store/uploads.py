@@ -40,14 +40,14 @@ class Uploads:
             return sorted(path.name for path in self.folder.glob(f"*{SUFFIX}"))
         return []
 
-    def put(self, said: str, content: bytes, faults: Callable[[Path], Sequence[str]]) -> str:
+    def put(self, sent_name: str, content: bytes, faults: Callable[[Path], Sequence[str]]) -> str:
         """Store a file, in place of one of the same name. `faults` returns its errors. Returns its name in the folder.
 
-        `said`: the person's name for it. Raises NotKeptError.
+        `sent_name`: the person's name for it. Raises NotKeptError.
         """
-        name = file_name(said)
+        name = file_name(sent_name)
         if len(content) > MOST_BYTES:
-            raise NotKeptError(f"{said[:LONGEST_NAME]!a}: a file has at most {MOST_BYTES:,} bytes")
+            raise NotKeptError(f"{sent_name[:LONGEST_NAME]!a}: a file has at most {MOST_BYTES:,} bytes")
         there = self.names()
         if name not in there and len(there) >= MOST_FILES:
             raise NotKeptError(f"the box keeps {MOST_FILES} files: remove one first, or give this one its name")
@@ -75,9 +75,9 @@ class Uploads:
             raise NotKeptError(f"{name} cannot be removed: {fault.strerror or fault}") from None
 
 
-def file_name(said: str) -> str:
+def file_name(sent_name: str) -> str:
     """The name in this folder for a person's name of a file: never a path, never hidden. Raises NotKeptError."""
-    last = said.replace("\\", "/").rpartition("/")[2]
+    last = sent_name.replace("\\", "/").rpartition("/")[2]
     stem = _UNFIT.sub("-", last.rpartition(".")[0] or last).strip("-")[:LONGEST_NAME]
     if not stem:
         raise NotKeptError("the file needs a name of letters and digits")

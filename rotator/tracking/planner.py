@@ -48,9 +48,9 @@ class ProcessPlanner:
         """From any thread. The present plan fails, and each later one too."""
         self._process.close()
 
-    def _compute(self, job: Callable[..., Result], *given: Any) -> Result:
+    def _compute(self, job: Callable[..., Result], *arguments: Any) -> Result:
         try:
-            return self._process.compute(job, *given)
+            return self._process.compute(job, *arguments)
         except (NeverRises, NotThere, Unknown, CannotFly):
             raise
         except Exception as failure:

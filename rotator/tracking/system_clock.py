@@ -10,7 +10,7 @@ from __future__ import annotations
 import ctypes
 import subprocess
 
-TOLD_S = 1.0
+ASSUMED_ERROR_S = 1.0
 """Error in seconds assumed for a clock that a person calls right, or if the system reports no smaller one."""
 CRYSTAL_SHARE = 0.1
 """The kernel lets its largest error grow by 500 ppm. A computer's crystal is off by a tenth of that."""
@@ -46,7 +46,7 @@ class SystemClock:
     def __init__(self) -> None:
         self.is_set = False
         """The result of the latest `look`."""
-        self.error_s = TOLD_S
+        self.error_s = ASSUMED_ERROR_S
         """How far the clock may be off in seconds, at the latest `look`."""
         self._again_s = 0.0
         self._unset_since_s: float | None = None
@@ -80,13 +80,13 @@ def _by_kernel() -> tuple[bool, float]:
     try:
         state = int(ctypes.CDLL(None).adjtimex(ctypes.byref(asked)))
     except (OSError, AttributeError):
-        return False, TOLD_S
+        return False, ASSUMED_ERROR_S
     if not 0 <= state < _ERROR:
-        return False, TOLD_S
+        return False, ASSUMED_ERROR_S
     return True, expected_s(asked.maxerror, asked.esterror)
 
 
 def expected_s(most_us: int, estimated_us: int) -> float:
     """From the kernel's largest and estimated error in microseconds. Not every time service tells the second one."""
     error_s = (estimated_us if estimated_us > 0 else CRYSTAL_SHARE * most_us) / 1e6
-    return min(TOLD_S, max(0.0, error_s))
+    return min(ASSUMED_ERROR_S, max(0.0, error_s))

@@ -21,7 +21,7 @@ from rotator.tracking.next_flight import NeverRises, Now
 from rotator.tracking.ports import TRACK, Box, Finder, Planner
 from rotator.tracking.program import CannotFly, Program
 from rotator.tracking.request_plan import plan_of
-from rotator.tracking.system_clock import TOLD_S
+from rotator.tracking.system_clock import ASSUMED_ERROR_S
 from rotator.tracking.tracked import NOTHING, Flown, Request, Tracked, ends_tracking
 
 log = logging.getLogger(__name__)
@@ -175,7 +175,7 @@ class Tracker:
 
     def clock_is_right(self) -> None:
         if not self.clock_told:
-            log.info("a person says that this computer's clock is right: it counts as right to %g s", TOLD_S)
+            log.info("a person says that this computer's clock is right: it counts as right to %g s", ASSUMED_ERROR_S)
         self.clock_told = True
 
     def clock_trusted(self) -> bool:

@@ -12,7 +12,7 @@ from rotator.control.sky.sectors import Place, box_at, kept
 
 ROOM_S = 0.5
 """Room of a motor before a sector: its way in this time, in seconds, plus its coast."""
-ABOUT_DEG = 0.5
+STANDS_WITHIN_DEG = 0.5
 """Distance from its place at which an axis may stand, beside the play of its gears."""
 
 
@@ -21,7 +21,7 @@ class Travel:
         mount, azimuth, elevation = antenna.mount, antenna.azimuth, antenna.elevation
         self._speeds = Speeds(azimuth.speed_dps, elevation.speed_dps)
         room_deg = _room_deg(azimuth), _room_deg(elevation)
-        self._about_deg = azimuth.play_deg + ABOUT_DEG, elevation.play_deg + ABOUT_DEG
+        self._about_deg = azimuth.play_deg + STANDS_WITHIN_DEG, elevation.play_deg + STANDS_WITHIN_DEG
         self._zones = [kept(sector, *room_deg) for sector in mount.sectors]
         self._detours = Detours(mount, room_deg, self._about_deg, self._speeds)
         self._walls_deg = [

@@ -133,11 +133,11 @@ async def bytes_of(request: web.Request, most: int) -> bytes:
     return bytes(body)
 
 
-def computed(told: dict[str, Any] | None) -> web.Response:
+def computed(answer: dict[str, Any] | None) -> web.Response:
     """The answer to a slow request. None: 202, ask again. With `error` in it: 409."""
-    if told is None:
+    if answer is None:
         return web.json_response({"computing": True}, status=202)
-    return web.json_response(told, status=409 if "error" in told else 200)
+    return web.json_response(answer, status=409 if "error" in answer else 200)
 
 
 def error(status: int, reason: str) -> web.Response:

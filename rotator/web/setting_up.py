@@ -104,13 +104,13 @@ class SettingUpApi:
     async def _wiring(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
         config = await self._config()
-        told = {
+        wiring = {
             "kind": config.rotor.type,
             "pins": [{"gpio": gpio, "key": key} for gpio, key in config.pins()],
             "chips": [{"bus": each.bus, "address": each.address, "name": each.part} for each in config.chips()],
             "active": config.relays.active if config.rotor.switched else None,
         }
-        return web.json_response(told)
+        return web.json_response(wiring)
 
     async def _programs(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)

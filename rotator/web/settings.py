@@ -124,7 +124,7 @@ class SettingsApi:
     async def _read(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
         found = await self._file.settings()
-        told = {
+        settings = {
             "file": str(self._file.path),
             "run": self._file.run,
             "digest": found.digest,
@@ -132,7 +132,7 @@ class SettingsApi:
             "in_force": found.config.model_dump(mode="json") if found.config else None,
             "refused": self._file.anew.refused,
         }
-        return web.json_response(told)
+        return web.json_response(settings)
 
     async def _forms(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)

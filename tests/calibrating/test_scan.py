@@ -102,7 +102,7 @@ def test_a_peak_at_the_edge_of_the_cross_is_looked_at_once_more() -> None:
     ("hears", "says"),
     [
         (behind(ReceiverSpec(BEAM_DEG, signal_db=-40.0)), "No peak: the strength varies by"),
-        (telling(-54.0, until_s=9.0), "The receiver has told nothing for 5 s"),
+        (telling(-54.0, until_s=9.0), "The receiver has given no strength for 5 s"),
         (telling(-54.0, until_s=9.0, problem="the receiver at shack:4532: refused"), "The receiver at shack:4532: ref"),
     ],
 )
@@ -153,7 +153,7 @@ def test_what_a_slow_receiver_heard_while_the_boom_still_turned_does_not_count(l
 
 def test_a_receiver_that_has_never_told_anything_ends_the_scan() -> None:
     sky = scanned(station(), lambda _clock, _off_deg: lambda: None)
-    assert "The receiver has told nothing for 5 s. No point is taken." in sky.text
+    assert "The receiver has given no strength for 5 s. No point is taken." in sky.text
 
 
 def test_s_stops_the_scan_in_any_step_of_a_place() -> None:

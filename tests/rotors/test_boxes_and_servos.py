@@ -49,14 +49,14 @@ def test_until_a_box_must_have_arrived_its_angle_is_assumed(box: BoxRotor, drive
     assert box.condition(EL).notice is None
 
 
-def test_a_box_that_turned_otherwise_than_told_is_a_fault_and_the_other_has_no_supply(
+def test_a_box_that_turned_away_from_its_angle_is_a_fault_and_the_other_has_no_supply(
     box: BoxRotor, drive: Journal
 ) -> None:
     drive.barred, drive.turned_deg = True, {AZ: 4.3}
     fault, other = box.condition(AZ).fault, box.condition(EL)
     assert fault is not None
     assert (fault.name, fault.axis, fault.limit, fault.cut) == ("turning with no relay on", AZ, "4°", True)
-    assert "it turned 4.3° otherwise" in fault.measured
+    assert "it turned 4.3° away from the angle" in fault.measured
     assert other.fault is None
     assert (other.notice, other.settling) == (UNFED, True)
     box.cut()

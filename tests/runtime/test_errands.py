@@ -10,7 +10,7 @@ from rotator.control.commands import Acknowledge, Errand, Place
 from rotator.exchange.orders import LetGo
 from rotator.exchange.sources import Source
 from rotator.rotors.relays import RelayRotor
-from rotator.runtime.errands import SAID_S, Errands
+from rotator.runtime.errands import SHOWN_S, Errands
 from rotator.runtime.loop import ControlLoop
 from tests.runtime.loop_rig import Rig
 
@@ -45,8 +45,8 @@ def test_what_failed_is_said_for_a_minute(rotor: Refuses, errand: Errand, caplog
     errands.run([errand], 100.0)
     assert errands.notices(100.0) == (WORDS[errand],)
     assert WORDS[errand] in caplog.text
-    assert errands.notices(100.0 + SAID_S - 0.1) == (WORDS[errand],)
-    assert errands.notices(100.0 + SAID_S) == ()
+    assert errands.notices(100.0 + SHOWN_S - 0.1) == (WORDS[errand],)
+    assert errands.notices(100.0 + SHOWN_S) == ()
 
 
 def test_one_that_fails_prevents_no_other_and_is_forgotten_when_it_is_done(rotor: Refuses) -> None:

@@ -32,7 +32,7 @@ class MoteusAxisTable(Table):
     """The only encoder sits before a gear: after power-on the axis does not move until you confirm its angle."""
 
     @model_validator(mode="after")
-    def _turns(self) -> MoteusAxisTable:
+    def _turns_the_antenna(self) -> MoteusAxisTable:
         if self.rev_per_turn == 0:
             raise ValueError("rev_per_turn must not be 0")
         return self
@@ -54,7 +54,7 @@ class Moteus(PerAxis, Table):
     """The elevation controller."""
 
     @model_validator(mode="after")
-    def _differ(self) -> Moteus:
+    def _ids_differ(self) -> Moteus:
         if self.azimuth.id == self.elevation.id:
             raise ValueError(f"azimuth and elevation both have id {self.azimuth.id}: give one another with tview")
         return self

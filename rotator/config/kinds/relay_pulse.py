@@ -48,7 +48,7 @@ class PulseAxisTable(Table):
         return [closes_deg + part_deg for closes_deg in closures_deg for part_deg in (0.0, self.closed_deg)]
 
     @model_validator(mode="after")
-    def _opens(self) -> PulseAxisTable:
+    def _contact_opens(self) -> PulseAxisTable:
         if self.closed_deg >= self.spacing_deg:
             raise ValueError(f"closed_deg ({self.closed_deg:g}) must be below spacing_deg ({self.spacing_deg:g})")
         return self

@@ -1,6 +1,6 @@
 """How many readings of a sensor are bad: a few are ridden out, more are noticed, and too many are a fault.
 
-Knows good and bad. Does not know what makes a reading bad, nor what a motor does meanwhile.
+Knows which readings are bad. Does not know what makes a reading bad, nor what a motor does meanwhile.
 """
 
 from __future__ import annotations

@@ -64,8 +64,8 @@ class Reach:
     def __init__(self, settings: SwitchedSettings) -> None:
         self._described = settings.motor
         self._learnt: dict[Direction, Motor] = {}
+        """The motors as they were learnt when `_known` was computed."""
         self._known: dict[Direction, Bounds] = {}
-        """Of these motors."""
         homing = settings.homing
         self._step_deg = homing.period_s * settings.motor.speed_dps if homing else 0.0
         """How far the axis may be from its reading: a count knows only the latest pulse."""

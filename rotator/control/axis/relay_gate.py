@@ -24,7 +24,8 @@ from rotator.exchange.motor import Motor, Trust, Trusts
 
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
-WAITS_TOLD_AFTER_S = 4.0
+WAITS_SHOWN_AFTER_S = 4.0
+"""A shorter wait of a relay is not shown to a person."""
 WAITS = Notice("waits until it stands still before its relay closes")
 
 
@@ -120,7 +121,7 @@ class RelayGate:
         return unstoppable(unseen, master=self._settings.master)
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
-        waits = (WAITS,) if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else ()
+        waits = (WAITS,) if now_s - self._waits_s >= WAITS_SHOWN_AFTER_S else ()
         doubted = doubts(self._settings.axis, self.trusts) if self._settings.attended else ()
         return (*self._watch.notices, *doubted, *waits)
 

@@ -16,10 +16,11 @@ from rotator.control.axis.smoothing import SETTLES_S, Smoothed
 from rotator.exchange.faults import Fault, FaultKind
 
 MOVED_DEG, MOVED_NOISES = 0.3, 2.5
-"""An axis has moved when it is further from where it stood than both."""
+"""An axis has moved when it is further from where it stood than this angle, and than this many times the noise."""
 STOOD_RUNS = 3
-SLOW_SHARE, TOLD_SHARE = 0.2, 0.4
-"""A fault after this many runs that did not move the axis, though a motor at this share of its speed would have."""
+"""A fault after this many runs that did not move the axis, each long enough for a slow motor."""
+SLOW_SHARE, SHOWN_SHARE = 0.2, 0.4
+"""A motor at the first share of its speed is slow: a run is judged by it. At the second share all runs together are."""
 STOOD_S, UNKNOWN_STOOD_S = 1.5, 2.5
 """Or after runs of this time in all. More until the axis has moved once: its motor may be slower than the file says."""
 STANDING_FAULTS = frozenset({FaultKind.STANDS_STILL, FaultKind.END_STOP})
@@ -63,7 +64,7 @@ class ShortRuns:
         self._counted = False
         """That run has not been judged yet."""
         self._speed_dps = math.inf
-        """Of the motor in that run."""
+        """The speed of the motor in that run."""
         self._moved_deg = MOVED_DEG
         self._from_deg: float | None = None
         """Where the present or last run began."""
@@ -159,9 +160,9 @@ class ShortRuns:
             self._stood_s = self._driven_s = self._gained_deg = 0.0
             return None
         # A slow motor among noisy readings needs longer to show that it moves.
-        enough_s = max(STOOD_S if self._known else UNKNOWN_STOOD_S, moved_deg / (TOLD_SHARE * self._speed_dps))
+        enough_s = max(STOOD_S if self._known else UNKNOWN_STOOD_S, moved_deg / (SHOWN_SHARE * self._speed_dps))
         one_way_s = abs(self._driven_s)
-        creeps = self._starts >= STOOD_STARTS and one_way_s * TOLD_SHARE * self._speed_dps >= moved_deg
+        creeps = self._starts >= STOOD_STARTS and one_way_s * SHOWN_SHARE * self._speed_dps >= moved_deg
         if self._stood_s < enough_s and self._runs < STOOD_RUNS and not creeps:
             return None
         runs = f"short runs {name}, {max(self._stood_s, one_way_s):.1f} s in all"

@@ -13,7 +13,7 @@ SeenAt = tuple[float, float]
 
 SPARK_DEG = 3.0
 SPARK_NOISES = 6.0
-"""A reading further off than both, and further than the axis can have turned, is a spark."""
+"""A spark is a reading further off than this angle, this many times the noise, and the furthest turn of the axis."""
 AGREE = 3
 """This many sparks in a row that agree with each other are not sparks: the axis is there."""
 FASTER_THAN_KNOWN = 2.0

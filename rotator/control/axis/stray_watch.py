@@ -27,7 +27,7 @@ ARRIVED_S = 0.5
 MEAN_OF = 5
 """The axis is at the mean of this many readings: one alone scatters by more than a slow motor turns."""
 COMING_DEG, COMING_NOISES = 0.5, 2.7
-"""An axis that has moved further than both towards its place is coming nearer."""
+"""An axis comes nearer when it moved towards its place by more than this angle, and this many times the noise."""
 SLOW_SHARE = 0.25
 """A motor at this share of its speed still comes nearer in time; a target faster than that leaves it behind soon."""
 

@@ -31,8 +31,8 @@ from rotator.control.sky.sectors import UNKNOWN
 from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
 from rotator.exchange.status import AxisStatus
 
-ABOUT_DEG = 0.5
-"""Scatter of the readings at rest."""
+POSITION_ERROR_DEG = 0.5
+"""The known angle may be wrong by this: readings scatter while the axis is at rest."""
 BLIND = Notice("a broken pot wire would look like an angle: fit end resistors")
 
 
@@ -165,7 +165,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
 
     @property
     def position_error_deg(self) -> float:
-        return ABOUT_DEG
+        return POSITION_ERROR_DEG
 
     def hold_back(self, now_s: float, why: str) -> None:
         self._law.rest(now_s)

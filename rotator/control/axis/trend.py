@@ -22,8 +22,9 @@ LEAST_READINGS = 3
 """A line needs this many readings."""
 
 LONE_DEG, LONE_NOISES = 1.5, 6.0
-"""A reading further out than both from the one before and the one after, and further than the axis turns in between, is
-a spark that was too small to be seen at once: no motor turns out and back so soon, and it would tilt the line."""
+"""A reading is a spark if it lies further than this angle, and than this many times the noise, from the one before and
+from the one after, and further than the axis turns in between. It was too small to be seen at once. No motor turns out
+and back so soon, and it would tilt the line."""
 
 _FIRST_NOISE_DEG = 0.1
 _FIRST_READINGS = 20

@@ -1,7 +1,7 @@
 """Presses that do not turn an axis without a calibration, by its raw readings: it may stand at its stop.
 
 Knows the readings, in degrees of the sensor's span, and how long the relays were on. Such an axis has no angle and no
-limits; one can only see whether a press has moved it. Stops nothing: the person who presses decides.
+limits; only whether a press has moved it can be seen. Stops nothing: the person who presses decides.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ ENOUGH, ENOUGH_S = 3, 1.0
 LONG_S = 4.5
 """Or after this time in all: presses that follow each other without a pause look like one."""
 MOVED_DEG, MOVED_NOISES = 0.3, 4.0
-"""It has moved when it is further from where it stood than both."""
+"""It has moved when it is further from where it stood than this angle, and than this many times the noise."""
 IN_VAIN = Notice(
     "presses did not move it: a program turns it again after a person has turned it, or after `resume`", "NOT TURNING"
 )

@@ -12,8 +12,8 @@ from rotator.control.axis.short_runs import (
     LEAST_RUN_S,
     MOVED_DEG,
     MOVED_NOISES,
+    SHOWN_SHARE,
     STOOD_STARTS,
-    TOLD_SHARE,
     ShortRuns,
 )
 from rotator.exchange.faults import Fault, FaultKind
@@ -190,7 +190,7 @@ def test_a_motor_that_stands_is_a_fault_among_noise_in_runs_of_any_length(seed: 
     chance = random.Random(seed)
     noise_deg, way = chance.choice((0.0, 0.1, 0.2, 0.4)), chance.choice((PLUS, MINUS))
     run_s = chance.uniform(0.1, 0.8)
-    needed = max(STOOD_STARTS, math.ceil(MOVED_NOISES * noise_deg / (TOLD_SHARE * SPEED_DPS * run_s)))
+    needed = max(STOOD_STARTS, math.ceil(MOVED_NOISES * noise_deg / (SHOWN_SHARE * SPEED_DPS * run_s)))
     bench = Bench(pace=0.0, noise_deg=noise_deg, seed=seed)
     for _ in range(needed + 1):
         bench.press(way, run_s, 0.7)
