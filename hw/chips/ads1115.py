@@ -21,7 +21,6 @@ MUX_AGAINST_GROUND = 0b100
 FULL_SCALE_V = {6.144: 0b000, 4.096: 0b001, 2.048: 0b010, 1.024: 0b011, 0.512: 0b100, 0.256: 0b101}
 RATE_SPS = {8: 0, 16: 1, 32: 2, 64: 3, 128: 4, 250: 5, 475: 6, 860: 7}
 
-CHANNELS = 4
 _STEPS = 32768
 _OSCILLATOR_TOLERANCE = 1.1
 """A conversion may take 10 % longer than the nominal rate says (electrical characteristics, data rate variation)."""

@@ -10,7 +10,6 @@ from hw.buses.spi import SpiBus
 
 STEPS = 256
 _WRITE = 0x11
-_SHUT_DOWN = 0x21
 
 
 class Mcp41010:
@@ -21,14 +20,10 @@ class Mcp41010:
         self._chip = chip
 
     def write(self, step: int) -> None:
-        """Put the wiper on a step, 0 to 255: step/256 of the resistance from B to A. Ends a shutdown.
+        """Put the wiper on a step, 0 to 255: step/256 of the resistance from B to A.
 
         Raises ValueError for another step, HardwareError when the lines cannot be set.
         """
         if not 0 <= step < STEPS:
             raise ValueError(f"a wiper has the steps 0 to {STEPS - 1}, not {step}")
         self._bus.send(self._chip, bytes([_WRITE, step]))
-
-    def shut_down(self) -> None:
-        """Disconnect terminal A, and connect the wiper with B. Raises HardwareError."""
-        self._bus.send(self._chip, bytes([_SHUT_DOWN, 0]))

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from hw.ports import Axis, CompassCalibration
 from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import UNCALIBRATED, CompassReading, HeadingSample
-from rotator.calibrating.entries import Entry, Press, StopNow
+from rotator.calibrating.entries import Entry, StopNow
 from rotator.calibrating.facts import NorthFacts
-from rotator.calibrating.guide import CONFIRM_S, ORDER_TAKEN_S, Abandoned, Guide, Steps
+from rotator.calibrating.guide import CONFIRM_S, Abandoned, Steps
+from rotator.calibrating.steering import SteeringGuide
 from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
-from rotator.exchange.orders import Aim, Confirm, Jog, Stop
-from rotator.exchange.status import AxisStatus, Status
+from rotator.exchange.orders import Aim, Confirm, Stop
+from rotator.exchange.status import Status
 
 PLACE_EVERY_DEG = 45.0
 LEAST_PLACES = 3
@@ -43,11 +44,11 @@ class CompassReady:
     """The event that the compass has just found its errors."""
 
 
-class CompassGuide(Guide):
+class CompassGuide(SteeringGuide):
     """Give every new reading of the compass to `see` before a step."""
 
     def __init__(self, facts: NorthFacts) -> None:
-        super().__init__(KEYS, -360.0, 720.0)
+        super().__init__(KEYS)
         self._facts = facts
         self._compass: CompassReading | None = None
         self._answered_s: float | None = None
@@ -55,16 +56,9 @@ class CompassGuide(Guide):
         self._shown = UNCALIBRATED
         self._learning = False
         """Show changes of the compass's calibration, and make its end an event."""
-        self._pressed_s: float | None = None
 
     def see(self, reading: CompassReading) -> None:
         self._compass = reading
-
-    def ready(self, entry: Entry) -> bool:
-        if isinstance(entry, StopNow):
-            return True
-        pressed = self._pressed_s is not None and self._now_s - self._pressed_s < ORDER_TAKEN_S
-        return self._asking and not (pressed or self._latest is None or self._latest.moving)
 
     # --- moving and sampling
 
@@ -163,17 +157,6 @@ class CompassGuide(Guide):
             self._say(f"  compass: {compass.calibration}")
             if compass.calibration.magnetometer == 3:
                 self._event = CompassReady()
-
-    def _press(self, press: Press, *, may_turn: bool) -> None:
-        if not may_turn:
-            self._say(f"It turns again after your answer. {self._accepts}")
-        elif press.seconds > 0:
-            self._pressed_s = self._now_s
-            self._orders.append(Jog(press.axis, press.direction, press.seconds))
-
-    @property
-    def _axis(self) -> AxisStatus:
-        return self._status.azimuth
 
     @property
     def _angles_deg(self) -> tuple[float, float]:

@@ -10,15 +10,16 @@ import math
 from collections.abc import Generator
 from dataclasses import dataclass
 
-from rotator.calibrating.entries import TAP_S, Back, Enter, Entry, Finish, No, Press, StopNow, Yes
-from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Guide, Steps
+from rotator.calibrating.entries import Back, Enter, Entry, Finish, No, Press, StopNow, Yes
+from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps
 from rotator.calibrating.results import MountFound
 from rotator.calibrating.sky_facts import SkyFacts
 from rotator.calibrating.sky_table import Residuals, found_text, miss_text, pictures, table, terms_text
+from rotator.calibrating.steering import SteeringGuide
 from rotator.control.sky.model_fit import NoFit, SkyPoint, fitted
 from rotator.control.sky.pointing_model import PERFECT
-from rotator.exchange.orders import Aim, Jog, Stop
-from rotator.exchange.status import AxisStatus, Status
+from rotator.exchange.orders import Aim, Stop
+from rotator.exchange.status import Status
 
 KEYS = "r l u d steer a little, R L U D further; s stops; Enter takes a point, b takes it back; f ends; q leaves."
 ACCEPTS = "y turns to the target; r l u d steer; Enter: it is centred; b takes the last point back; f: no more."
@@ -44,11 +45,11 @@ class Sighting:
     """Where it seems to be along a simulated boom, which no eye can see; empty for a real one."""
 
 
-class SkyGuide(Guide):
+class SkyGuide(SteeringGuide):
     """Give `see` the latest sighting before each step."""
 
     def __init__(self, facts: SkyFacts) -> None:
-        super().__init__(KEYS, -360.0, 720.0)
+        super().__init__(KEYS, tap_s=FINE_S)
         self.result: MountFound | None = None
         self.residuals: Residuals | None = None
         """What was shown last of how far off the boom is at each point."""
@@ -56,20 +57,9 @@ class SkyGuide(Guide):
         self._seen = Sighting(0.0, 0.0, "")
         self.points: list[SkyPoint] = []
         self._moved = False
-        self._pressed_s: float | None = None
 
     def see(self, sighting: Sighting) -> None:
         self._seen = sighting
-
-    def ready(self, entry: Entry) -> bool:
-        if isinstance(entry, StopNow):
-            return True
-        pressed = self._pressed_s is not None and self._now_s - self._pressed_s < ORDER_TAKEN_S
-        return self._asking and not (pressed or self._latest is None or self._latest.moving)
-
-    @property
-    def _axis(self) -> AxisStatus:
-        return self._status.azimuth
 
     def _take(self, status: Status, entry: Entry | None) -> None:
         super()._take(status, entry)
@@ -238,11 +228,3 @@ class SkyGuide(Guide):
             self.result = MountFound(fit.model, self._facts.own_scale(tuple(self.points)))
         else:
             self._say(NOTHING_SAVED)
-
-    def _press(self, press: Press, *, may_turn: bool) -> None:
-        if not may_turn:
-            self._say(f"It turns again after your answer. {self._accepts}")
-        elif press.seconds > 0:
-            self._pressed_s = self._now_s
-            seconds = FINE_S if press.seconds == TAP_S else press.seconds
-            self._orders.append(Jog(press.axis, press.direction, seconds))

@@ -9,17 +9,14 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 from click.exceptions import NoArgsIsHelpError
 
 from rotator.cli.foreground import in_front
 from rotator.cli.lines import say
-
-Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 CONFIG = click.option(
     "--config", "path", type=click.Path(path_type=Path, readable=False), metavar="FILE", help="The box's file (TOML)."

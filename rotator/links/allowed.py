@@ -8,8 +8,6 @@ from __future__ import annotations
 import ipaddress
 from collections.abc import Sequence
 
-Network = ipaddress.IPv4Network | ipaddress.IPv6Network
-
 PRIVATE = (
     "127.0.0.0/8",
     "10.0.0.0/8",

@@ -58,16 +58,6 @@ def test_every_step_arrives_at_its_chip_and_at_no_other(kind: str) -> None:
     assert bench.chips["elevation"].frames == 1
 
 
-@pytest.mark.parametrize("kind", ["lines", "kernel"])
-def test_shutdown_and_back(kind: str) -> None:
-    bench = Bench()
-    driver = Mcp41010(bench.bus(kind), "azimuth")
-    driver.shut_down()
-    assert bench.chips["azimuth"].shut_down
-    driver.write(3)
-    assert bench.chips["azimuth"].share() == 3 / 256
-
-
 def test_taking_the_lines_moves_no_wiper() -> None:
     bench = Bench()
     bench.lines()
