@@ -28,12 +28,15 @@ Result = TypeVar("Result")
 class OwnProcess:
     """The process starts with the first job, and ends with `close`. `compute` belongs to one thread.
 
-    `longest_s`: a job that takes longer is given up. `once`: the process ends after each job, for rare jobs.
+    `longest_s`: a job that takes longer is given up. `once`: the process ends after each job, for rare jobs. `again`: a
+    job whose process has died, or was dead before, is given to a new one, once: the kernel ends a process that seldom
+    runs when memory is short.
     """
 
-    def __init__(self, longest_s: float, *, once: bool = False) -> None:
+    def __init__(self, longest_s: float, *, once: bool = False, again: bool = False) -> None:
         self._longest_s = longest_s
         self._once = once
+        self._again = again
         self._process: SpawnProcess | None = None
         self._pipe: Connection | None = None
         self._closed = False
@@ -43,21 +46,41 @@ class OwnProcess:
     def compute(self, job: Callable[..., Result], *arguments: Any) -> Result:
         """Raises what the job raises; RuntimeError where the process fails; ValueError where it lacks memory."""
         try:
-            pipe = self._pipe or self._start()
-            pipe.send((job, arguments))
-            if not pipe.poll(self._longest_s):
-                raise TimeoutError(f"it takes longer than {self._longest_s:g} s")
-            done, answer = pipe.recv()
-        except (OSError, EOFError) as failure:
-            self._end()
-            why = "the box ends" if self._closed else str(failure) or "its process has ended"
-            raise RuntimeError(why) from None
+            done, answer = self._answer(job, arguments)
+        except (EOFError, ConnectionError) as death:
+            done, answer = self._answer_again(job, arguments, death)
+        except OSError as failure:
+            raise self._failed(failure) from None
         if self._once:
             self._end()
         if not done:
             raise answer
         result: Result = answer
         return result
+
+    def _answer(self, job: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[bool, Any]:
+        """Whether the job is done; its result, or what it raised. Raises EOFError, OSError."""
+        pipe = self._pipe or self._start()
+        pipe.send((job, arguments))
+        if not pipe.poll(self._longest_s):
+            raise TimeoutError(f"it takes longer than {self._longest_s:g} s")
+        done, answer = pipe.recv()
+        return done, answer
+
+    def _answer_again(self, job: Callable[..., Any], arguments: tuple[Any, ...], death: Exception) -> tuple[bool, Any]:
+        """Raises RuntimeError."""
+        failed = self._failed(death)
+        if not self._again or self._closed:
+            raise failed from None
+        try:
+            return self._answer(job, arguments)
+        except (OSError, EOFError) as failure:
+            raise self._failed(failure) from None
+
+    def _failed(self, failure: Exception) -> RuntimeError:
+        """Ends what is left of the process."""
+        self._end()
+        return RuntimeError("the box ends" if self._closed else str(failure) or "its process has ended")
 
     def close(self) -> None:
         """From any thread. The present job fails, and so does each later one."""

@@ -14,7 +14,7 @@ from typing import Protocol
 
 from rotator.control.rights import QUIET, deed_of
 from rotator.control.sky.flight_plan import Antenna
-from rotator.exchange.orders import GiveBack, Mode, Order
+from rotator.exchange.orders import Aim, GiveBack, Mode, Order
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status, time_left
 from rotator.orbits.catalogue import Unknown
@@ -33,6 +33,8 @@ AGAIN_S = 600.0
 """Seconds until the plan is made again: elements and clock may have changed."""
 LOOKS_S = 10.0
 """Seconds between two looks whether the elements have a target of the plan."""
+FAILED_S = 60.0
+"""Seconds until the next try after a plan that could not be made."""
 NOT_YET_S = 5.0
 """Seconds until the next try if an angle or the elements are not known yet."""
 
@@ -78,11 +80,12 @@ class Follower:
 
     def heard(self, source: Source, order: Order) -> None:
         """An order of any sender. When a person gives the antenna back, the plan goes on at once."""
-        if source != TRACK and deed_of(order) not in QUIET:
+        # The tracker orders an Aim only where a person asked for a direction; a flight is its own.
+        if (source != TRACK or isinstance(order, Aim)) and deed_of(order) not in QUIET:
             rest_s = 0.0 if isinstance(order, GiveBack) else REST_S
             with self._lock:
                 self._rests_until_s = self._box.status().at_s + rest_s
-                self._rests_after = f"after an order of {source}"
+                self._rests_after = f"after an order of {source if source != TRACK else 'a person'}"
 
     def plan_again(self) -> None:
         """From any thread: the targets or their priorities have changed. The present pass is flown to its end."""
@@ -151,6 +154,7 @@ class Follower:
             upcoming = self._planner.plan_followed(followed, antenna, now)
         except (Unknown, NotThere, RuntimeError) as reason:
             log.warning("the plan of many passes could not be made: %s", reason)
+            self._again_utc_s = now.utc_s + FAILED_S
             return
         if upcoming is None:
             return

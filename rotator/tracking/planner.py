@@ -26,7 +26,7 @@ class ProcessPlanner:
     """The process starts with the first plan, and ends with `close`."""
 
     def __init__(self) -> None:
-        self._process = OwnProcess(LONGEST_S)
+        self._process = OwnProcess(LONGEST_S, again=True)
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         """Raises NeverRises, NotThere, Unknown; RuntimeError where the process fails."""

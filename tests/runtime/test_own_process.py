@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 import os
+import signal
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
@@ -25,6 +27,37 @@ def test_it_answers_from_another_process_and_raises_what_the_job_raises() -> Non
     threading.Timer(0.0, process.close).start()
     with pytest.raises(RuntimeError, match="the box ends"):
         process.compute(time.sleep, 60.0)
+
+
+def dies_once(path: Path) -> int:
+    """The kernel ends the process in the middle of the first job."""
+    if not path.exists():
+        path.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return os.getpid()
+
+
+def test_where_it_may_a_job_whose_process_was_killed_is_done_by_a_new_one(tmp_path: Path) -> None:
+    process = OwnProcess(60.0, again=True)
+    first = process.compute(os.getpid)
+    os.kill(first, signal.SIGKILL)
+    second = process.compute(os.getpid)
+    assert second != first, "killed while it had nothing to do"
+    third = process.compute(dies_once, tmp_path / "died")
+    assert third not in (first, second), "killed in the middle"
+    with pytest.raises(RuntimeError, match="ended"):
+        process.compute(os._exit, 1)
+    process.close()
+    with pytest.raises(RuntimeError, match="the box ends"):
+        process.compute(os.getpid)
+
+
+def test_where_it_may_not_the_job_is_not_done_twice(tmp_path: Path) -> None:
+    """A download would ask its server twice."""
+    process = OwnProcess(60.0, once=True)
+    with pytest.raises(RuntimeError, match="ended"):
+        process.compute(dies_once, tmp_path / "died")
+    process.close()
 
 
 def test_a_box_that_ends_while_the_process_starts_gives_the_job_up() -> None:

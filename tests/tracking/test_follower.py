@@ -121,6 +121,31 @@ def test_off_ends_it_and_plan_begins_it_again(rise: Box) -> None:
     assert rise.loop.status.flown is not None
 
 
+@pytest.mark.parametrize("wait_s", [5.0, 100.0])
+def test_a_direction_that_a_person_asks_for_is_kept_before_and_during_a_flight(rise: Box, wait_s: float) -> None:
+    rise.wait(wait_s)
+    assert rise.tracker.track("100 20") == ""
+    rise.wait(130.0)
+    assert rise.world.antenna() == pytest.approx((100.0, 20.0), abs=4.0)
+    assert rise.loop.status.flown is None
+    assert "after an order of a person" in rise.tracker.state
+
+
+def test_a_plan_that_could_not_be_made_is_tried_again_within_the_pass(rise: Box) -> None:
+    """The process that plans may lack memory for a moment."""
+    failures = ["its process has ended"]
+
+    def meanwhile() -> None:
+        if failures:
+            raise RuntimeError(failures.pop())
+
+    rise.planner.meanwhile = meanwhile
+    rise.follower.plan_again()
+    rise.wait(100.0)
+    assert not failures
+    assert rise.loop.status.flown is not None
+
+
 def test_a_target_that_a_person_names_comes_before_the_plan(rise: Box) -> None:
     assert rise.tracker.track("moon") == ""
     rise.wait(105.0)
