@@ -63,7 +63,7 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         high_deg=table.max_deg,
         tolerance_deg=table.tolerance_deg + config.kind.slack_deg(axis),
         slack_deg=slack_deg,
-        shift_deg=build_offsets(config).of(axis),
+        shift_deg=build_offsets(config).deg(axis),
         feels=source is not AngleSource.MODELLED,
         counts=source is AngleSource.COUNTED,
         shown_ends=tuple(
@@ -85,7 +85,7 @@ def _scales(config: Config) -> tuple[tuple[Ranges, Ranges], tuple[float, float]]
     """The ranges of both axes and the park position, in true degrees."""
     shift, flips = build_offsets(config), config.mount.flip == "over-top"
     azimuth, elevation = (
-        Ranges(config.axis(axis).min_deg + shift.of(axis), config.axis(axis).max_deg + shift.of(axis), flips)
+        Ranges(config.axis(axis).min_deg + shift.deg(axis), config.axis(axis).max_deg + shift.deg(axis), flips)
         for axis in Axis
     )
     park_deg = config.mount.park_azimuth_deg, config.mount.park_elevation_deg

@@ -122,7 +122,7 @@ class RestLead:
     _last: tuple[float, float] | None = None
     """The angle measured last, and since when it has been the same."""
 
-    def of(self, way: int) -> float:
+    def deg(self, way: int) -> float:
         return self._learnt.get(way, max(0.0, self.dead_band_deg - self.coast_deg))
 
     def ordered(self, wiper_deg: float, way: int, now_s: float) -> None:
@@ -150,6 +150,6 @@ class RestLead:
             return
         short_deg = (wiper_deg - angle_deg) * way
         if -self.coast_deg - TIGHT_DEG <= short_deg <= 2 * self.dead_band_deg:
-            before_deg = self.of(way)
+            before_deg = self.deg(way)
             self._learnt[way] = max(0.0, before_deg + LEARNING * (short_deg - before_deg))
         self._came_from_deg = angle_deg

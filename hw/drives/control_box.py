@@ -85,7 +85,7 @@ class ControlBox:
         """Advance the model to `now_s`."""
         past_s, self._now_s = max(0.0, now_s - self._now_s), now_s
         if powered and self._step is not None:
-            self.model.advance(self.scale.angle_deg(self._step), self.lead.of(-1), self.lead.of(1), past_s)
+            self.model.advance(self.scale.angle_deg(self._step), self.lead.deg(-1), self.lead.deg(1), past_s)
 
     def found(self, angle_deg: float, now_s: float) -> None:
         """The rotor was measured at `angle_deg`: the model continues from there, and at rest the lead is learnt."""
@@ -107,7 +107,7 @@ class ControlBox:
         self._held = self._measured = False
         self._way = self.model.way(angle_deg, self._way, max(self.resolution_deg, LEAST_TURN_BACK_DEG))
         low_deg, high_deg = self._range_deg
-        lead_deg = angle_deg + self._way * self.lead.of(self._way)
+        lead_deg = angle_deg + self._way * self.lead.deg(self._way)
         wiper_deg = min(max(lead_deg, min(low_deg, angle_deg)), max(high_deg, angle_deg))
         self._send(wiper_deg)
         assert self._step is not None
@@ -145,7 +145,7 @@ class ControlBox:
 
     def _stay(self) -> None:
         self.lead.forget()
-        self._send(self.scale.within(self.angle_deg))
+        self._send(self.scale.nearest_deg(self.angle_deg))
 
     def _send(self, wiper_deg: float) -> None:
         """Send the nearest step, unless the chip already has it."""

@@ -52,7 +52,7 @@ class CommandScale:
                 f"{self.low_deg:g}° to {self.high_deg:g}°: set the axis's limits within it"
             )
 
-    def within(self, angle_deg: float) -> float:
+    def nearest_deg(self, angle_deg: float) -> float:
         """The nearest angle inside the table."""
         return min(max(angle_deg, self.low_deg), self.high_deg)
 

@@ -118,7 +118,7 @@ class ServoAxis:
         if self._course is None or not self.pulsing:
             return self.angle_deg
         most_deg = self.spec.slew_dps * min(now_s - self._stepped_s, 2 * FRAME_S)
-        error_deg = self.scale.within(self._course.at(now_s)) - self.angle_deg
+        error_deg = self.scale.nearest_deg(self._course.at(now_s)) - self.angle_deg
         return self.angle_deg + min(max(error_deg, -most_deg), most_deg)
 
     def stepped(self, angle_deg: float, now_s: float) -> None:

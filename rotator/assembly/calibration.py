@@ -47,7 +47,7 @@ class CalibrationTraits:
 def calibration_traits(config: Config, axis: Axis) -> CalibrationTraits:
     return CalibrationTraits(
         reach_deg=_reach_deg(config, axis),
-        shift_deg=build_offsets(config).of(axis),
+        shift_deg=build_offsets(config).deg(axis),
         homes=config.counts(axis),
         settle_s=0.0 if config.rotor.switched else SETTLE_S,
         first_press=config.kind.first_move(axis),

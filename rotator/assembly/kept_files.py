@@ -76,7 +76,7 @@ def _scale(config: Config, axis: Axis) -> dict[str, object]:
         "hardware": config.rotor.hardware,
         "sensor": config.angle(axis).sensor,
         "limits_deg": [table.min_deg, table.max_deg],
-        "offset_deg": shift.of(axis),
+        "offset_deg": shift.deg(axis),
         "points": None if points is None else [list(point) for point in points],
         "home_deg": None if stop is None else stop.home_deg,
     }

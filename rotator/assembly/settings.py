@@ -206,10 +206,10 @@ def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
         period_s=stop.spacing_deg / table.speed_dps,
         travel_s=(table.max_deg - table.min_deg) / table.speed_dps,
         coast_s=stop.coast_s,
-        home_deg=stop.home_deg + shift.of(axis),
+        home_deg=stop.home_deg + shift.deg(axis),
         mostly_closed=stop.mostly_closed,
         switch=f"{axis.value}_low" in config.limits.switches,
-        rest_deg=(stop.rest_deg[0] + shift.of(axis), stop.rest_deg[1] + shift.of(axis)),
+        rest_deg=(stop.rest_deg[0] + shift.deg(axis), stop.rest_deg[1] + shift.deg(axis)),
     )
 
 

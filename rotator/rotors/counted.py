@@ -209,7 +209,7 @@ class CountedRotor(RelayRotor):
     def run(self, errand: Errand) -> None:
         match errand:
             case Place(axis, angle_deg) if axis in self._axes:
-                self._axes[axis].place(angle_deg - self._shift.of(axis))
+                self._axes[axis].place(angle_deg - self._shift.deg(axis))
             case _:
                 super().run(errand)
 

@@ -57,7 +57,7 @@ class MoteusRotor(PlainRotor):
             case Acknowledge(axis) if axis in self._drive.faults():
                 self._drive.acknowledge(axis)
             case Place(axis, angle_deg):
-                self._drive.confirm(axis, angle_deg - self._shift.of(axis))
+                self._drive.confirm(axis, angle_deg - self._shift.deg(axis))
             case LetGo():
                 self._drive.release()
 

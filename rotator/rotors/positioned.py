@@ -20,7 +20,7 @@ from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 def steered(drive: PositionedDrive, shift: Offsets, axis: Axis, command: Command) -> Direction:
     """Pass the command to the drive, on the rotor's own scale. Returns OFF: no relay. Raises HardwareError."""
     if isinstance(command, Steer):
-        drive.aim(axis, command.angle_deg - shift.of(axis), command.rate_dps, command.until_s)
+        drive.aim(axis, command.angle_deg - shift.deg(axis), command.rate_dps, command.until_s)
     else:
         drive.hold(axis)
     return Direction.OFF

@@ -134,11 +134,11 @@ class Box:
 
     def boom_deg(self, axis: Axis) -> float:
         """Where the antenna really points."""
-        return self.world.antenna()[list(Axis).index(axis)] + self._shift.of(axis)
+        return self.world.antenna()[list(Axis).index(axis)] + self._shift.deg(axis)
 
     def shaft_deg(self, axis: Axis) -> float:
         """Where the shaft really is, before the play of the gears."""
-        return self.world.shafts()[list(Axis).index(axis)] + self._shift.of(axis)
+        return self.world.shafts()[list(Axis).index(axis)] + self._shift.deg(axis)
 
     def client(self, source: Source = LINK) -> Client:
         return Client(self.loop, build_mount(self.config), source, clock=self.clock)

@@ -69,7 +69,7 @@ def test_a_rotor_in_order_has_nothing_to_say() -> None:
 @pytest.mark.parametrize(("axis", "own_deg"), [(AZ, 80.0), (EL, 50.0)])
 def test_it_goes_to_an_angle_less_its_own_offset(axis: Axis, own_deg: float) -> None:
     bench = Bench()
-    bench.steer(axis, own_deg + SHIFT.of(axis), 8.0)
+    bench.steer(axis, own_deg + SHIFT.deg(axis), 8.0)
     stands_deg = dict(zip(Axis, bench.world.antenna(), strict=True))
     assert stands_deg[axis] == pytest.approx(own_deg, abs=0.1)
 

@@ -94,7 +94,7 @@ class ShortRuns:
 
     def settles(self, now_s: float) -> bool:
         """Whether the last run is just over and has not been seen to move the axis: the readings may show it yet."""
-        if self._ended is None or self._moved or self._smoothed.deg is None:
+        if self._ended is None or self._moved or self._smoothed.mean_deg is None:
             return False
         return now_s - self._ended.off_s < SETTLES_S
 
@@ -120,14 +120,14 @@ class ShortRuns:
         if relays.closed:
             self._count()
             if self._moved:
-                self._stands_deg = self._smoothed.deg
-            self._run, self._from_deg, self._moved = relays, self._smoothed.deg, False
+                self._stands_deg = self._smoothed.mean_deg
+            self._run, self._from_deg, self._moved = relays, self._smoothed.mean_deg, False
             self._speed_dps = speed_dps
 
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
         """A good reading. Returns the fault that it shows, if any."""
         self._smoothed.see(angle_deg)
-        smoothed_deg = self._smoothed.deg
+        smoothed_deg = self._smoothed.mean_deg
         if smoothed_deg is None:
             return None
         moved_deg = max(MOVED_DEG, MOVED_NOISES * noise_deg)
@@ -175,14 +175,14 @@ class ShortRuns:
             return
         way, run_s = self._ended.direction, self._ended.lasted_s
         self._ended, self._counted, self._way = None, True, way
-        if self._from_deg is not None and self._smoothed.deg is not None:
-            gone_deg = (self._smoothed.deg - self._from_deg) * way
+        if self._from_deg is not None and self._smoothed.mean_deg is not None:
+            gone_deg = (self._smoothed.mean_deg - self._from_deg) * way
             self._backwards = self._backwards + 1 if gone_deg <= -self._moved_deg else 0
         if self._moved:
             return
         self._starts, self._driven_s = self._starts + 1, self._driven_s + run_s * way
-        if self._from_deg is not None and self._smoothed.deg is not None:
-            reached_deg = self._smoothed.deg if self._reached_deg is None else self._reached_deg
+        if self._from_deg is not None and self._smoothed.mean_deg is not None:
+            reached_deg = self._smoothed.mean_deg if self._reached_deg is None else self._reached_deg
             self._gained_deg += (reached_deg - self._from_deg) * way
         if run_s >= LEAST_RUN_S:
             self._runs += run_s >= self._telling_s

@@ -26,6 +26,6 @@ class Smoothed:
         self._latest.clear()
 
     @property
-    def deg(self) -> float | None:
+    def mean_deg(self) -> float | None:
         """The mean; None: there are too few readings."""
         return sum(self._latest) / READINGS if len(self._latest) == READINGS else None

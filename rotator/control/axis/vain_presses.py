@@ -60,15 +60,15 @@ class VainPresses:
             self._counted()
             self._since_s = relays.since_s
             if self._stands_deg is None:
-                self._stands_deg = self._smoothed.deg
+                self._stands_deg = self._smoothed.mean_deg
 
     def see(self, at_s: float, place_deg: float, noise_deg: float) -> None:
         """A good reading. `noise_deg`: the scatter of the readings, rms."""
         self._smoothed.see(place_deg)
-        if self._stands_deg is None or self._smoothed.deg is None:
+        if self._stands_deg is None or self._smoothed.mean_deg is None:
             return
-        if abs(self._smoothed.deg - self._stands_deg) >= max(MOVED_DEG, MOVED_NOISES * noise_deg):
-            self._count, self._pressed_s, self._stands_deg, self._ended_s = 0, 0.0, self._smoothed.deg, None
+        if abs(self._smoothed.mean_deg - self._stands_deg) >= max(MOVED_DEG, MOVED_NOISES * noise_deg):
+            self._count, self._pressed_s, self._stands_deg, self._ended_s = 0, 0.0, self._smoothed.mean_deg, None
             self._moved, self._present_s = self._since_s is not None, 0.0
         elif self._since_s is not None and not self._moved:
             self._present_s = at_s - self._since_s

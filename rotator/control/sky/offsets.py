@@ -20,16 +20,16 @@ class Offsets:
     azimuth_deg: float = 0.0
     elevation_deg: float = 0.0
 
-    def of(self, axis: Axis) -> float:
+    def deg(self, axis: Axis) -> float:
         return self.azimuth_deg if axis is Axis.AZIMUTH else self.elevation_deg
 
     def reported(self, axis: Axis, points: Points) -> Points:
         """A calibration on the rotor's own scale, as the box works with it."""
-        return tuple((raw, angle_deg + self.of(axis)) for raw, angle_deg in points)
+        return tuple((raw, angle_deg + self.deg(axis)) for raw, angle_deg in points)
 
     def own_scale(self, axis: Axis, points: Points) -> Points:
         """A calibration as the box works with it, as it is kept: without the shift."""
-        return tuple((raw, angle_deg - self.of(axis)) for raw, angle_deg in points)
+        return tuple((raw, angle_deg - self.deg(axis)) for raw, angle_deg in points)
 
 
 def offsets(

@@ -125,8 +125,8 @@ class Bench:
 
 
 def test_before_anything_was_seen_the_lead_is_the_file_s() -> None:
-    assert Bench().lead.of(1) == Bench().lead.of(-1) == 1.5
-    assert RestLead(dead_band_deg=1.0, coast_deg=3.0).of(1) == 0.0, "never less than nothing"
+    assert Bench().lead.deg(1) == Bench().lead.deg(-1) == 1.5
+    assert RestLead(dead_band_deg=1.0, coast_deg=3.0).deg(1) == 0.0, "never less than nothing"
 
 
 @pytest.mark.parametrize(("way", "from_deg", "rests_deg"), [(1, 60.0, 97.5), (-1, 140.0, 102.5)])
@@ -135,10 +135,10 @@ def test_half_of_what_a_rest_shows_is_learnt_for_that_direction_alone(
 ) -> None:
     bench = Bench()
     bench.moved(from_deg, rests_deg, 100.0, way)
-    assert bench.lead.of(way) == pytest.approx(1.5 + 0.5 * (2.5 - 1.5))
-    assert bench.lead.of(-way) == 1.5
+    assert bench.lead.deg(way) == pytest.approx(1.5 + 0.5 * (2.5 - 1.5))
+    assert bench.lead.deg(-way) == 1.5
     bench.rests(rests_deg, 5.0)
-    assert bench.lead.of(way) == pytest.approx(2.0), "one rest is learnt from once"
+    assert bench.lead.deg(way) == pytest.approx(2.0), "one rest is learnt from once"
 
 
 @pytest.mark.parametrize(
@@ -149,7 +149,7 @@ def test_a_stalled_motor_teaches_nothing(short_deg: float, learnt_deg: float) ->
     """It rests at most twice the dead band short of the wiper, or its coast beyond it."""
     bench = Bench()
     bench.moved(60.0, 100.0 - short_deg, 100.0, 1)
-    assert bench.lead.of(1) == pytest.approx(learnt_deg)
+    assert bench.lead.deg(1) == pytest.approx(learnt_deg)
 
 
 def test_a_lead_never_falls_below_nothing() -> None:
@@ -157,14 +157,14 @@ def test_a_lead_never_falls_below_nothing() -> None:
     for turn in range(8):
         bench.moved(60.0 + turn, 100.5, 100.0 + turn / 1000, 1)
         bench.lead.ordered(60.0, -1, bench.now_s)
-    assert bench.lead.of(1) == 0.0
+    assert bench.lead.deg(1) == 0.0
 
 
 def test_only_a_rest_after_three_degrees_shows_the_dead_band() -> None:
     for from_deg, learns in ((97.5 - 2.9, False), (97.5 - 3.1, True)):
         bench = Bench()
         bench.moved(from_deg, 97.5, 100.0, 1)
-        assert (bench.lead.of(1) != 1.5) is learns
+        assert (bench.lead.deg(1) != 1.5) is learns
 
 
 def test_a_new_target_in_the_same_direction_goes_on_with_the_same_move() -> None:
@@ -177,7 +177,7 @@ def test_a_new_target_in_the_same_direction_goes_on_with_the_same_move() -> None
     bench.lead.seen(97.5, bench.now_s + 0.5)
     bench.now_s += 0.5
     bench.rests(97.5)
-    assert bench.lead.of(1) == pytest.approx(2.0), "it came from 94°, 3.5° in all"
+    assert bench.lead.deg(1) == pytest.approx(2.0), "it came from 94°, 3.5° in all"
 
 
 def test_the_other_direction_begins_a_new_move() -> None:
@@ -185,7 +185,7 @@ def test_the_other_direction_begins_a_new_move() -> None:
     bench.moved(60.0, 97.5, 100.0, 1)
     bench.lead.ordered(95.0, -1, bench.now_s)
     bench.rests(96.6)
-    assert bench.lead.of(-1) == 1.5, "0.9° are no such turn"
+    assert bench.lead.deg(-1) == 1.5, "0.9° are no such turn"
 
 
 def test_a_wiper_set_to_where_the_rotor_is_teaches_nothing() -> None:
@@ -195,7 +195,7 @@ def test_a_wiper_set_to_where_the_rotor_is_teaches_nothing() -> None:
     bench.lead.seen(60.0, bench.now_s)
     bench.lead.forget()
     bench.rests(97.5)
-    assert bench.lead.of(1) == 1.5
+    assert bench.lead.deg(1) == 1.5
     bench.lead.ordered(97.5, 0, bench.now_s)
     bench.rests(97.5)
-    assert bench.lead.of(0) == 1.5, "and a wiper that stays is no move"
+    assert bench.lead.deg(0) == 1.5, "and a wiper that stays is no move"

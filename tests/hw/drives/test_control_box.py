@@ -110,7 +110,7 @@ def test_a_rest_that_was_measured_moves_wiper_and_model(
     for angle_deg in (from_deg, *[rests_deg] * 5):
         bench.now_s += 0.5
         bench.box.found(angle_deg, bench.now_s)
-    assert bench.box.lead.of(way) == pytest.approx(1.5 + (3.0 - 1.5) / 2)
+    assert bench.box.lead.deg(way) == pytest.approx(1.5 + (3.0 - 1.5) / 2)
     assert bench.order(target_deg + way * 10.0, 20.0) == target_deg + way * (10.0 + 2.25)
     assert bench.box.angle_deg == pytest.approx(target_deg + way * 10.0)
 
