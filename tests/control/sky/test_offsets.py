@@ -35,7 +35,7 @@ def test_what_is_kept_is_the_rotors_own_scale() -> None:
 
 def test_a_compass_east_of_true_north_reads_too_little() -> None:
     # Declination 4.5° east: what the compass calls north lies at a true bearing of 4.5°.
-    assert offsets(declination_deg=4.5).of(Axis.AZIMUTH) == 4.5
+    assert offsets(declination_deg=4.5).deg(Axis.AZIMUTH) == 4.5
     assert offsets(declination_deg=4.5).deg(Axis.ELEVATION) == 0.0
     assert offsets(2.0, 0.0, -11.0).deg(Axis.AZIMUTH) == -9.0
 
