@@ -1,7 +1,8 @@
 """The sentinel: a small process that opens the relays when the program that closed them has died or hangs.
 
 Knows the relay lines, the program's process and one pipe. On the pipe `+` means that a relay is on, `-` that all relays
-are off, and `.` that the program ends properly. The end of the pipe without `.` means that the program has died.
+are off, and `.` that the program ends properly. The end of the pipe without `.` means that the program has died. Knows
+no sensor, no order and no configuration.
 
 It uses no bus, disk or network that could make it hang, and it is loaded and locked in memory before the first relay
 may close. It is needed because a Raspberry Pi's kernel keeps the outputs of a dead program as they were.

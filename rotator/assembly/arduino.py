@@ -1,6 +1,7 @@
 """Builds the emulated Arduino that the box replaces, from the same file as the box.
 
-Part of the composition root. Knows which key of the file is which property of its motors and pots.
+Part of the composition root. Knows which key of the file is which property of its motors and pots. Does not know the
+sketch: the simulator has it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Opens a front panel and limit switches as their tables describe them: their share of the composition root.
 
-Knows the drivers and the wiring. The panel knows the meaning of a switch, the axis that of a limit.
+Knows the drivers and the wiring. The panel knows the meaning of a switch, the axis that of a limit. Decides nothing.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Opens the sensor chips of the axes (AS5600, MPU6050) with their drivers, as their tables describe them.
 
-Part of the composition root. Pots, counts and controllers belong to other files.
+Part of the composition root. Pots, counts and controllers belong to other files. Does not judge readings.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The sky over the station that a configuration names: its place, its satellites, the system's clock.
 
-Knows where elements are read from, and where they are fetched to.
+Knows where elements are read from, and where they are fetched to. Does not know what a target is, nor when it passes.
 """
 
 from __future__ import annotations

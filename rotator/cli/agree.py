@@ -1,6 +1,6 @@
 """One question to the user before something that turns an antenna or changes a machine.
 
-Knows `--yes`, and that no answer means no.
+Knows `--yes`, and that no answer means no. Does not know what is agreed to.
 """
 
 from __future__ import annotations

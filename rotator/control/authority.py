@@ -1,6 +1,7 @@
 """Which source may move the antenna: latched stops, the panel's mode switch, and streams that have lost the antenna.
 
-Knows sources and moments. Of an order it knows whether it stops, releases or moves, and where it points.
+Knows sources and moments. Of an order it knows whether it stops, releases or moves, and where it points. Knows no axis
+and no motor.
 """
 
 from __future__ import annotations

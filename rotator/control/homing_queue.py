@@ -1,6 +1,7 @@
 """The axes that are to find their end stops, one after another, so that a person can watch each.
 
 Knows which axes can be homed, which wait, and who has asked. While it is active only that source may move the antenna.
+Does not know how an axis finds its stop.
 """
 
 from __future__ import annotations

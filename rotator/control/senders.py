@@ -1,7 +1,7 @@
 """Who has sent orders lately, which of them are streams, and whose orders have no effect at present.
 
 Knows connections, moments, the directions that they asked for, and who silenced a connection. The stops and the switch
-that hold back every connection are in `authority`.
+that hold back every connection are in `authority`. Knows no axis.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 the log.
 
 Knows the form of such a name, and the words for a stop or a storm park that it has ordered. Objects for programs keep
-the name itself, which tells two connections apart: `console#8` is a command that a person typed in a terminal,
-`page#2` a browser on the box's page, `rotctld#3` a program's third connection.
+the name itself, which tells two connections apart: `console#8` is a command that a person typed in a terminal, `page#2`
+a browser on the box's page, `rotctld#3` a program's third connection. Does not know who may give which order.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Near the horizon by Recommendation ITU-R P.834-9, equation 14; higher up by the refractivity of its reference atmosphere
 (P.453). Within 0.015° of a ray that is followed through that atmosphere. The weather of a day moves the horizon itself
-by some 0.2°. Light is bent less, for it hardly feels the water in the air.
+by some 0.2°. Light is bent less, for it hardly feels the water in the air. Knows no target and no orbit.
 """
 
 from __future__ import annotations

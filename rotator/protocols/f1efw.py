@@ -1,7 +1,7 @@
 """The F1EFW dialect: the serial line of the Arduino sketch that this box replaces.
 
 The sketch looks for a W anywhere in the bytes, never answers, and stops at zero or negative elevation. Every other byte
-is noise to it.
+is noise to it. Knows the bytes of an order, and which orders this sketch would take. Does not know how the box moves.
 """
 
 from __future__ import annotations

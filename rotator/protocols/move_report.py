@@ -1,6 +1,7 @@
 """A line after each move on a link, `AZ = 235, EL = 25`, as KO6TH's controller prints it: an option of a GS-232 link.
 
 Knows when the antenna has moved and stands again. Wraps the link's own session, whose answers go through unchanged.
+Knows no command.
 """
 
 from __future__ import annotations

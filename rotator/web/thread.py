@@ -1,7 +1,7 @@
 """The thread of the page: an event loop of its own, so that no browser delays a link, a stop or the control.
 
 Knows the socket on which the page listens, and how its parts start and end. If the port is taken, it says so and the
-box runs without a page.
+box runs without a page. Does not know the page.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Builds the kind digipot: control boxes with an MCP41010 in place of each knob, real or simulated.
 
-Part of the composition root: names drivers and simulated parts, and passes them the keys of [digipot].
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [digipot]. Decides nothing.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Builds the kind moteus: two moteus controllers on CAN-FD, real or simulated.
 
-Part of the composition root: names drivers and simulated parts, and passes them the keys of [moteus].
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [moteus]. Decides nothing.
 """
 
 from __future__ import annotations

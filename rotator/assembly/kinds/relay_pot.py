@@ -1,6 +1,6 @@
 """Builds the kind relay-pot: motors on relays with pots, real or simulated. Other kinds with relays use its relay bank.
 
-Part of the composition root: names drivers and simulated parts, and passes them the keys of [relays].
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [relays]. Decides nothing.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Builds the kind relay-pulse: motors on relays, each with a counted contact, real or simulated.
 
 Part of the composition root: names drivers and simulated parts, and passes them the keys of [relays] and [pulses].
+Decides nothing.
 """
 
 from __future__ import annotations

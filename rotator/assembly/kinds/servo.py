@@ -1,6 +1,6 @@
 """Builds the kind servo: two hobby servos on a PCA9685, real or simulated.
 
-Part of the composition root: names drivers and simulated parts, and passes them the keys of [servo].
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [servo]. Decides nothing.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What a rotor hands to an axis in each cycle: the reading of its sensor, and the condition of the axis.
 
-Knows values. `sensing` judges whether a reading can be believed.
+Knows values. `sensing` judges whether a reading can be believed. Knows no sensor.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Whether a positioned axis follows: it stands where it was sent, or it comes nearer.
 
 Knows where the drive was sent and where the axis is. A modelled angle always agrees with its model. What was seen lasts
-while the drive holds in between.
+while the drive holds in between. Knows no goal and no sky.
 """
 
 from __future__ import annotations
