@@ -17,6 +17,8 @@ from rotator.control.sky.plan import Path
 
 RATE_OVER_S = 0.25
 """The rate of the target is the mean over this time, half of it before now."""
+SOON_S = 0.04
+"""A motor that brakes begins to brake this much early: the next command may come too late."""
 STILL_DPS = 0.05
 """A target slower than this stands still."""
 
@@ -48,9 +50,14 @@ class PositionedLaw:
         return self._within(target_deg, 0.0, until_s)
 
     def follow(self, now_s: float, path: Path, until_s: float) -> Steer:
-        """Along with a target that moves."""
+        """Along with a target that moves. It brakes before a limit, so that it comes to rest there, not beyond."""
         before_deg, after_deg = path.angle_deg(now_s - RATE_OVER_S / 2), path.angle_deg(now_s + RATE_OVER_S / 2)
-        return self._within(path.angle_deg(now_s), (after_deg - before_deg) / RATE_OVER_S, until_s)
+        steer = self._within(path.angle_deg(now_s), (after_deg - before_deg) / RATE_OVER_S, until_s)
+        if not steer.rate_dps or not self._braking_deg:
+            return steer
+        limit_deg = self._settings.limits.max_deg if steer.rate_dps > 0 else self._settings.limits.min_deg
+        brakes = abs(limit_deg - steer.angle_deg) <= self._brakes_deg(steer.rate_dps)
+        return Steer(limit_deg, 0.0, until_s) if brakes else steer
 
     def jog(
         self, now_s: float, angle_deg: float, direction: Direction, until_s: float, sent: Sent | None, *, settling: bool
@@ -95,6 +102,11 @@ class PositionedLaw:
         kept_deg = limits.nearest(angle_deg)
         outward = (kept_deg == limits.max_deg and rate_dps > 0) or (kept_deg == limits.min_deg and rate_dps < 0)
         return Steer(kept_deg, 0.0 if outward or kept_deg != angle_deg else rate_dps, until_s)
+
+    def _brakes_deg(self, rate_dps: float) -> float:
+        """How far it goes on from that speed, if it begins to brake with one of the next commands."""
+        share = min(1.0, abs(rate_dps) / self._settings.speed_dps)
+        return share**2 * self._braking_deg + share * self._settings.speed_dps * SOON_S
 
     def _arrived(self, steer: Steer, angle_deg: float) -> bool:
         return abs(steer.angle_deg - angle_deg) < self._settings.near_deg and abs(steer.rate_dps) < STILL_DPS

@@ -6,7 +6,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.positioned_law import PositionedLaw, Sent
+from rotator.control.axis.positioned_law import SOON_S, PositionedLaw, Sent
 from rotator.control.axis.readings import ANYTHING
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.commands import Steer
@@ -18,11 +18,10 @@ MINUS, OFF, PLUS = Direction
 LIMITS = Range(0.0, 450.0)
 SPEED_DPS, NEAR_DEG, BRAKING_DEG, LEASE_S = 30.0, 0.5, 5.0, 0.25
 UNTIL_S = 77.0
-LAW = PositionedLaw(
-    PositionedSettings(Axis.AZIMUTH, LIMITS, 1.0, SPEED_DPS, ANYTHING, Calibration(((0.0, 0.0), (450.0, 450.0)))),
-    BRAKING_DEG,
-    LEASE_S,
+LAW_SETTINGS = PositionedSettings(
+    Axis.AZIMUTH, LIMITS, 1.0, SPEED_DPS, ANYTHING, Calibration(((0.0, 0.0), (450.0, 450.0)))
 )
+LAW = PositionedLaw(LAW_SETTINGS, BRAKING_DEG, LEASE_S)
 
 
 @pytest.mark.parametrize(
@@ -51,6 +50,31 @@ def test_it_moves_on_with_its_target_and_waits_at_a_limit(
     path = Path(1000.0, [at_deg + rate_dps * (offset_s - 1.0) for offset_s in OFFSETS_S], EVEN)
     steer = LAW.follow(1001.0, path, UNTIL_S)
     assert (steer.angle_deg, steer.rate_dps, steer.until_s) == pytest.approx((place_deg, moves_on_dps, UNTIL_S))
+
+
+@pytest.mark.parametrize("way", [PLUS, MINUS])
+@pytest.mark.parametrize("rate_dps", [1.0, 6.0, 30.0, 300.0])
+def test_along_a_path_it_is_sent_to_its_limit_where_it_can_just_brake(way: Direction, rate_dps: float) -> None:
+    """From 30°/s it takes 5°, at 6°/s a twenty-fifth of that; no target is faster than the motor."""
+    share = min(1.0, rate_dps / SPEED_DPS)
+    brakes_deg = share**2 * BRAKING_DEG + share * SPEED_DPS * SOON_S
+    limit_deg = LIMITS.max_deg if way > 0 else LIMITS.min_deg
+    for room_deg, stops in ((brakes_deg - 1e-3, True), (brakes_deg + 1e-3, False)):
+        at_deg = limit_deg - way * room_deg
+        path = Path(1000.0, [at_deg + way * rate_dps * (offset_s - 1.0) for offset_s in OFFSETS_S], EVEN)
+        steer = LAW.follow(1001.0, path, UNTIL_S)
+        if stops:
+            assert steer == Steer(limit_deg, 0.0, UNTIL_S)
+        else:
+            assert (steer.angle_deg, steer.rate_dps) == pytest.approx((at_deg, way * rate_dps))
+
+
+def test_what_stops_at_once_needs_no_room_before_its_limit() -> None:
+    """A servo."""
+    law = PositionedLaw(LAW_SETTINGS, 0.0, LEASE_S)
+    path = Path(1000.0, [449.99 + 5.0 * (offset_s - 1.0) for offset_s in OFFSETS_S], EVEN)
+    steer = law.follow(1001.0, path, UNTIL_S)
+    assert (steer.angle_deg, steer.rate_dps) == pytest.approx((449.99, 5.0))
 
 
 # --- jogs
