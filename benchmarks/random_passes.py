@@ -82,7 +82,8 @@ def unwinds(job: Job) -> bool:
     config = parse(job.config, "benchmark")
     path = KnownPath(flown_pass(job).rows)
     stands_deg = (path.rows[0][1] if job.stands_deg is None else job.stands_deg), 0.0
-    speeds = Speeds(*(motor.speed_dps for motor in planned_motors(config)))
+    azimuth, elevation = planned_motors(config)
+    speeds = Speeds(azimuth.speed_dps, elevation.speed_dps, azimuth.switched)
     route = best_route(build_mount(config), path.directions(path.begin_s, STEP_S), stands_deg, 0.0, speeds)
     return route.lost_s > TURNING_S
 

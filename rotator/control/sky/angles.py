@@ -32,10 +32,13 @@ def great_circle_deg(
     return math.degrees(math.atan2(across, along))
 
 
-def lifted_deg(azimuth_off_deg: float, elevation_deg: float) -> float:
-    """The elevation that points nearest to a target at `elevation_deg`, while azimuth is this far off it."""
+def lifted_deg(azimuth_off_deg: float, elevation_deg: float, *, over_top: bool = False) -> float:
+    """The elevation that points nearest to a target at `elevation_deg`, while azimuth is this far off it.
+
+    `over_top`: it may go past the zenith; else it stays there while azimuth is off by more than 90°.
+    """
     off = math.cos(math.radians(azimuth_off_deg))
-    if off <= 0.0:
+    if off <= 0.0 and not over_top:
         return ZENITH_DEG
     target = math.radians(elevation_deg)
     return math.degrees(math.atan2(math.sin(target), math.cos(target) * off))

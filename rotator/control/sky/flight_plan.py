@@ -61,7 +61,7 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
     has chosen it; None: the best way."""
     mount, azimuth, elevation = antenna.mount, antenna.azimuth, antenna.elevation
     begin_s = max(path.begin_s, now_s)
-    speeds = Speeds(azimuth.speed_dps, elevation.speed_dps)
+    speeds = Speeds(azimuth.speed_dps, elevation.speed_dps, azimuth.switched)
     route = best_route(
         mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds, begin_on=begin_on
     )
@@ -167,5 +167,7 @@ def _lift(mount: Mount, directions: Sequence[tuple[float, float]], change: Chang
 
 def _begin(change: Change, *, stepped: bool) -> int:
     """The moment at which the angles change to the new way. A step is made around the moment of its jump: half of the
-    turn is before it."""
-    return round((change.leaves_s + change.turns_s / 2 * stepped) / PLAN_STEP_S)
+    turn is before it. A motor without relays begins its turn at the last moment on the old way."""
+    if stepped:
+        return round((change.leaves_s + change.turns_s / 2) / PLAN_STEP_S)
+    return round(change.leaves_s / PLAN_STEP_S) + 1

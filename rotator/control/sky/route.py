@@ -39,6 +39,8 @@ class Way:
 class Speeds:
     azimuth_dps: float
     elevation_dps: float
+    stepped: bool = True
+    """By relays, in steps; else the motors follow every path."""
 
 
 def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds: Speeds, *, may_flip: bool) -> Way:

@@ -16,8 +16,9 @@ Place = tuple[float, float]
 LIFTS_FROM_DEG = 75.0
 """While azimuth turns back under a target above this, elevation goes nearer to the zenith, and so nearer to the target.
 Lower targets are lost meanwhile anyway."""
-LIFT_LATE_DEG = 1.0
-"""Both motors turn at once then, in steps: the antenna is this much further off than after even motions."""
+LIFT_LATE_DEG, LITTLE_LATE_DEG = 1.0, 0.5
+"""Both motors turn at once then, on relays in steps: the antenna is this much further off than after even motions. A
+motor without relays is a little behind its path."""
 
 
 class Turning:
@@ -26,6 +27,7 @@ class Turning:
     def __init__(self, mount: Mount, directions: Sequence[Direction], speeds: Speeds) -> None:
         self._directions = directions
         self._speeds = speeds
+        self._late_deg = lift_late_deg(speeds)
         self._elevation = mount.elevation
         self._seen = [is_seen(mount, *direction) for direction in directions]
 
@@ -46,19 +48,25 @@ class Turning:
         return self.arrival(before.place(look), to, look + 1, left=look)
 
     def errors_deg(self, from_deg: Place, to: Flown, look: int, arrival: int) -> list[float]:
-        """The error from each look to the next until the antenna arrives. Looks at an unseen target are left out."""
+        """The error from each look to the next until the antenna arrives. Looks at an unseen target are left out.
+
+        Of a turn that is over before the next look, its middle counts: there it is worst.
+        """
         there, errors_deg = to.place(min(arrival, len(self._directions) - 1)), []
-        stands_deg, past_s = from_deg[1], STEP_S / 2
+        middle_s = STEP_S / 2
+        if arrival == look + 1:
+            middle_s = min(middle_s, self.travel_s(from_deg, there) / 2)
+        stands_deg, past_s = from_deg[1], middle_s
         for number in range(look, arrival):
             azimuth_deg, elevation_deg = self._directions[number]
-            axis_azimuth_deg, _ = self.after(from_deg, there, (number - look + 0.5) * STEP_S)
+            axis_azimuth_deg, _ = self.after(from_deg, there, (number - look) * STEP_S + middle_s)
             lifted = lifted_between_deg(axis_azimuth_deg, self._directions[number], (from_deg[1], there[1]))
             aim_deg = there[1] if lifted is None else self._elevation.nearest(lifted)
             stands_deg = turned_deg(stands_deg, aim_deg, self._speeds.elevation_dps * past_s)
             past_s = STEP_S
             if self._seen[number]:
                 off_deg = great_circle_deg(axis_azimuth_deg, stands_deg, azimuth_deg, max(0.0, elevation_deg))
-                errors_deg.append(off_deg if lifted is None else off_deg + LIFT_LATE_DEG)
+                errors_deg.append(off_deg if lifted is None else off_deg + self._late_deg)
         return errors_deg
 
     def travel_s(self, from_deg: Place, to_deg: Place) -> float:
@@ -76,15 +84,21 @@ class Turning:
         )
 
 
+def lift_late_deg(speeds: Speeds) -> float:
+    """How much further off the antenna is while elevation is lifted."""
+    return LIFT_LATE_DEG if speeds.stepped else LITTLE_LATE_DEG
+
+
 def lifted_between_deg(axis_azimuth_deg: float, target: Direction, between_deg: tuple[float, float]) -> float | None:
     """The elevation for a moment of a turn between these two elevations, with azimuth where it is by then.
 
-    None: the target is too low, or the turn goes over the top.
+    A turn that begins or ends past the zenith goes through it while azimuth is a quarter of a turn off.
+    None: the target is too low.
     """
     azimuth_deg, elevation_deg = target
-    if elevation_deg < LIFTS_FROM_DEG or max(between_deg) > ZENITH_DEG:
+    if elevation_deg < LIFTS_FROM_DEG:
         return None
-    return lifted_deg(azimuth_deg - axis_azimuth_deg, elevation_deg)
+    return lifted_deg(azimuth_deg - axis_azimuth_deg, elevation_deg, over_top=max(between_deg) > ZENITH_DEG)
 
 
 def turned_deg(from_deg: float, to_deg: float, by_deg: float) -> float:

@@ -101,3 +101,11 @@ def test_no_other_elevation_points_nearer_while_azimuth_is_off(off_deg: float, t
     nearest_deg = great_circle_deg(off_deg, lifted, 0.0, target_deg)
     assert nearest_deg <= great_circle_deg(off_deg, other, 0.0, target_deg) + 1e-6
     assert nearest_deg <= 90.0 - target_deg + 1e-6
+
+
+@given(st.floats(-180, 180), st.floats(0, 90), st.floats(0, 180))
+def test_past_the_zenith_too_no_other_elevation_points_nearer(off_deg: float, target_deg: float, other: float) -> None:
+    lifted = lifted_deg(off_deg, target_deg, over_top=True)
+    assert target_deg - 1e-9 <= lifted <= 180.0 - target_deg + 1e-9
+    nearest_deg = great_circle_deg(off_deg, lifted, 0.0, target_deg)
+    assert nearest_deg <= great_circle_deg(off_deg, other, 0.0, target_deg) + 1e-6

@@ -7,13 +7,19 @@ from itertools import pairwise
 
 import pytest
 
+from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range
-from rotator.control.sky.route import STEP_S
+from rotator.control.sky.route import LOST_DEG, STEP_S
+from rotator.control.sky.turning import turned_deg
+from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan
 
 LOW = Mount(Range(0.0, 450.0), Range(0.0, 90.0))
+HALF = Mount(Range(0.0, 180.0), Range(0.0, 180.0), flip=True)
+"""Two servos of 180°: the other half of the sky is over the top."""
 SPEED_DPS = 6.0
+SERVO_DPS = 50.0
 TOP_S = 300.0
 
 
@@ -44,3 +50,35 @@ def test_the_turn_has_its_middle_at_the_culmination(beside_deg: float) -> None:
         off_s.append(step.leave_s + by_deg / SPEED_DPS / 2 - TOP_S)
     assert max(off_s) - min(off_s) < 1.5
     assert max(map(abs, off_s)) < 2.0
+
+
+@pytest.mark.parametrize("beside_deg", [1.0, 4.0, 7.0, 9.0])
+@pytest.mark.parametrize("late_s", [0.0, 1.5, 3.0])
+def test_servos_of_180_degrees_lose_no_second_under_a_target_within_9_degrees_of_the_zenith(
+    beside_deg: float, late_s: float
+) -> None:
+    """They turn to the other half of the sky through the zenith, and not before the target is near it."""
+    motor = PlannedMotor(SERVO_DPS, 0.0, 1.0, switched=False)
+    path = overhead(beside_deg)
+    order = plan_flight("overhead", path, Antenna(HALF, motor, motor, (160.0, 0.0)), late_s).order
+    (azimuth_deg, elevation_deg), worst_deg = _places(order.azimuth, order.elevation, late_s), 0.0
+    assert max(order.elevation.angles_deg) > 90.0
+    now_s = late_s
+    while now_s < path.end_s:
+        now_s += 0.02
+        wanted_deg = _places(order.azimuth, order.elevation, now_s)
+        azimuth_deg = turned_deg(azimuth_deg, wanted_deg[0], SERVO_DPS * 0.02)
+        elevation_deg = turned_deg(elevation_deg, wanted_deg[1], SERVO_DPS * 0.02)
+        worst_deg = max(worst_deg, great_circle_deg(azimuth_deg, elevation_deg, *path.direction(now_s)))
+    assert worst_deg <= LOST_DEG
+
+
+def _places(azimuth: AxisPlan, elevation: AxisPlan, now_s: float) -> tuple[float, float]:
+    """Where both motors are sent: between two moments of the plan on a straight line."""
+    place = (now_s - azimuth.begin_s) / PLAN_STEP_S
+    before, last = int(place), len(azimuth.angles_deg) - 1
+    share, now, then = place - before, min(before, last), min(before + 1, last)
+    azimuth_deg, elevation_deg = (
+        plan.angles_deg[now] * (1 - share) + plan.angles_deg[then] * share for plan in (azimuth, elevation)
+    )
+    return azimuth_deg, elevation_deg

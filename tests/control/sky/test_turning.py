@@ -6,7 +6,7 @@ import pytest
 
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.route import STEP_S, Flown, Speeds, Way
-from rotator.control.sky.turning import LIFT_LATE_DEG, Turning, lifted_between_deg
+from rotator.control.sky.turning import LIFT_LATE_DEG, LITTLE_LATE_DEG, Turning, lifted_between_deg
 
 MOUNT = Mount(Range(0.0, 450.0), Range(0.0, 180.0))
 SPEEDS = Speeds(6.0, 3.0)
@@ -106,14 +106,29 @@ def test_below_the_horizon_the_antenna_waits_level() -> None:
         (80.0, (80.0, 80.0), 90.0),
         (75.0, (60.0, 70.0), 90.0),
         (74.9, (80.0, 80.0), None),  # too low to be kept
-        (80.0, (80.0, 100.0), None),  # over the top
-        (80.0, (100.0, 80.0), None),
+        (74.9, (74.9, 105.1), None),
     ],
 )
 def test_under_a_target_near_the_zenith_elevation_is_lifted_while_azimuth_turns_back(
     elevation_deg: float, between_deg: tuple[float, float], lifted: float | None
 ) -> None:
     assert lifted_between_deg(300.0, (100.0, elevation_deg), between_deg) == lifted
+
+
+@pytest.mark.parametrize("between_deg", [(80.0, 100.0), (100.0, 80.0), (100.0, 100.0)])
+def test_a_turn_over_the_top_goes_through_the_zenith_half_way(between_deg: tuple[float, float]) -> None:
+    target = 100.0, 80.0
+    for azimuth_deg, lifted in [(100.0, 80.0), (190.0, 90.0), (10.0, 90.0), (280.0, 100.0)]:
+        assert lifted_between_deg(azimuth_deg, target, between_deg) == pytest.approx(lifted)
+
+
+def test_of_a_turn_within_one_look_the_middle_counts() -> None:
+    """From over the top to this side, in 3.6 s: half way the antenna points at the zenith."""
+    fast = Speeds(50.0, 50.0, stepped=False)
+    directions = [(0.0, 80.0)] * LOOKS
+    way = Flown(MOUNT, directions, Way(0.0, flipped=False))
+    errors_deg = Turning(MOUNT, directions, fast).errors_deg((180.0, 100.0), way, 0, 1)
+    assert errors_deg == pytest.approx([10.0 + LITTLE_LATE_DEG])
 
 
 def test_a_turn_right_round_under_a_high_target_stays_within_its_distance_from_the_zenith() -> None:
