@@ -14,6 +14,7 @@ import click
 
 from rotator.cli.box import RunningBox
 from rotator.cli.failed import CommandFailed
+from rotator.exchange.spoken import spoken
 from rotator.exchange.status import SHOWN_ERROR_DEG, time_left
 
 LOOK_S = 0.2
@@ -43,10 +44,10 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
             return click.echo("The box flies its plan: `rotator sky plan` shows it.")
         state = _planned(box)
         if state.startswith("ended: "):
-            raise CommandFailed(state.removeprefix("ended: "))
+            raise CommandFailed(spoken(state.removeprefix("ended: ")))
         if state.startswith("refused: "):
             raise CommandFailed(f"{state.removeprefix('refused: ')}; what was tracked goes on")
-        if state == "off" or state.startswith("rests: "):
+        if _is_nothing(state):
             return click.echo(_stays(words))
         tracks = _tracks(box)
     if tracks is None:
@@ -92,17 +93,20 @@ def _goes_on(box: RunningBox) -> str:
         return _sentence(tracks)
     if state == "planning":
         return "The box makes a plan."
-    _, _, why = state.partition(": ")
+    _, _, why = spoken(state).partition(": ")
     return f"The box tracks nothing: {why}." if why else "The box tracks nothing."
 
 
 def _planned(box: RunningBox) -> str:
-    """What goes on as soon as it is no longer planning."""
-    give_up_s = time.monotonic() + PATIENCE_S
+    """What goes on as soon as it is no longer planning. Raises CommandFailed."""
+    give_up_s, planned = time.monotonic() + PATIENCE_S, False
     while time.monotonic() < give_up_s:
         (state,) = box.order("track")
         if state != "planning":
+            if planned and _is_nothing(state):
+                raise CommandFailed("another person has ended the tracking meanwhile")
             return state
+        planned = True
         time.sleep(LOOK_S)
     raise CommandFailed(f"the box has made no plan within {PATIENCE_S:g} s; `rotator track off` gives up")
 
@@ -113,6 +117,11 @@ def _stays(words: str) -> str:
 
     there = f"points at the locator {words.upper()}" if is_locator(words) else "goes there"
     return f"The antenna {there}, and stays."
+
+
+def _is_nothing(state: str) -> bool:
+    """Whether nothing is tracked, for no failure: a direction needs no plan."""
+    return state == "off" or state.startswith("rests: ")
 
 
 def _tracks(box: RunningBox) -> dict[str, Any] | None:

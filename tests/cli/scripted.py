@@ -47,6 +47,8 @@ class ScriptedConsole:
         path.parent.mkdir(exist_ok=True)
         self.heard: list[str] = []
         self.ordered = threading.Event()
+        self.states: list[str] = []
+        """What is tracked, in turn, as the console tells it."""
         self._statuses = statuses
         self._server = socket.socket(socket.AF_UNIX)
         self._server.bind(str(path))
@@ -77,6 +79,8 @@ class ScriptedConsole:
             if not self.ordered.is_set() and told.controlled_by == COMMAND:
                 told = replace(told, controlled_by="")  # before its order it moves nothing
             return json.dumps(as_object(told)) + "\nok\n"
+        if line == "track" and self.states:
+            return f"{self.states.pop(0)}\nok\n"
         self.heard.append(line)
         self.ordered.set()
         return "ok\n"

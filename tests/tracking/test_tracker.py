@@ -80,6 +80,13 @@ def test_a_clock_that_is_set_makes_a_new_plan(rise: Box, hours_to_go: float) -> 
 PC, PERSON = Source("gs232b", 1), Source("console", 1)
 
 
+def test_after_a_stop_it_has_ended_at_once_and_not_only_when_its_thread_has_its_turn(rise: Box) -> None:
+    assert rise.tracker.track("iss") == ""
+    rise.wait(5.0)
+    rise.loop.post(PERSON, Stop(latch=True))
+    assert rise.tracker.state == "ended: console#1 stopped it"
+
+
 @pytest.mark.parametrize(
     ("source", "order"),
     [
