@@ -34,6 +34,10 @@ from rotator.tracking.system_clock import ASSUMED_ERROR_S, SystemClock
 
 UNSET = f"This computer's clock has reached no time server: {ASSUMED_ERROR_S:g} s of error are counted for it."
 NO_PASS = "no pass in this time"
+HEADINGS = "rises (UTC)", "here", "for", "from", "highest", "to", "error"
+SPARED = "here", "to"
+"""Columns that a narrow terminal does not show."""
+SHORTEST_NAME, GAP = 8, 2
 
 
 def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bool) -> None:
@@ -200,22 +204,31 @@ def _as_dict(each: Pass) -> dict[str, object]:
 
 
 def _table(found: Sequence[Pass], errors_deg: Sequence[float]) -> None:
-    table = Table(box=None, pad_edge=False)
-    table.add_column("name", overflow="ellipsis", no_wrap=True)
-    for heading in ("rises (UTC)", "here", "for", "from", "highest", "to", "error"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for each, error_deg in zip(found, errors_deg, strict=True):
-        table.add_row(
-            each.name,
-            "is up" if each.aos_s is None else day_and_time(each.aos_s),
-            "" if each.aos_s is None else local_time(each.aos_s),
-            "" if each.aos_s is None or each.los_s is None else f"{(each.los_s - each.aos_s) / 60:.0f} min",
-            "" if each.aos is None else f"{each.aos.azimuth_deg:.0f}°",
-            f"{each.highest.elevation_deg:.0f}°",
-            "stays" if each.los is None else f"{each.los.azimuth_deg:.0f}°",
-            sky_plan.error_words(error_deg),
-        )
-    Console(highlight=False).print(table)
+    """Names of satellites are shortened where the terminal is narrow, times and angles never."""
+    console, table = Console(highlight=False), Table(box=None, pad_edge=False)
+    rows = [_row(each, error_deg) for each, error_deg in zip(found, errors_deg, strict=True)]
+    left_out = SPARED if console.width < sky_plan.NARROW else ()
+    shown = [column for column, heading in enumerate(HEADINGS) if heading not in left_out]
+    widths = {column: max(len(row[column]) for row in (HEADINGS, *rows)) for column in shown}
+    left = console.width - sum(width + GAP for width in widths.values())
+    table.add_column("name", overflow="ellipsis", no_wrap=True, max_width=max(SHORTEST_NAME, left))
+    for column in shown:
+        table.add_column(HEADINGS[column], justify="right", no_wrap=True)
+    for each, row in zip(found, rows, strict=True):
+        table.add_row(each.name, *(row[column] for column in shown))
+    console.print(table)
+
+
+def _row(each: Pass, error_deg: float) -> tuple[str, ...]:
+    return (
+        "is up" if each.aos_s is None else day_and_time(each.aos_s),
+        "" if each.aos_s is None else local_time(each.aos_s),
+        "" if each.aos_s is None or each.los_s is None else f"{(each.los_s - each.aos_s) / 60:.0f} min",
+        "" if each.aos is None else f"{each.aos.azimuth_deg:.0f}°",
+        f"{each.highest.elevation_deg:.0f}°",
+        "stays" if each.los is None else f"{each.los.azimuth_deg:.0f}°",
+        sky_plan.error_words(error_deg),
+    )
 
 
 def _km(range_km: float) -> float | None:

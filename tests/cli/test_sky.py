@@ -242,3 +242,22 @@ def test_a_clock_that_no_time_server_has_set_counts(tmp_path: Path, monkeypatch:
         assert ("no time server" in seen.stderr) is (answer == "no")
     assert errors_deg["no"] >= errors_deg["yes"]
     assert errors_deg["no"] > 0.3, "a second is most of a degree"
+
+
+@pytest.mark.parametrize("columns", [56, 60, 80, 100])
+def test_long_names_are_shortened_and_no_moment_nor_angle_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, columns: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    file = tmp_path / "long.tle"
+    text = skyfield_oracle.TLE.read_text(encoding="utf-8")
+    file.write_text(text.replace("ISS\n", "LONG NAME OF A SPACE STATION (ZARYA)\n"), encoding="utf-8")
+    result = told(tmp_path, "passes", "--from", EVENING, elements=file)
+    heading, *rows = result.stdout.splitlines()[:20]
+    wide = columns >= 64
+    assert heading.split()[-4:] == (["from", "highest", "to", "error"] if wide else ["for", "from", "highest", "error"])
+    assert all(len(row) <= columns for row in rows)
+    here, to = (r" +\d\d:\d\d", r" +\d+°") if wide else ("", "")
+    form = re.compile(rf"\S.*  \d\d Mar \d\d:\d\d:\d\d{here} +\d+ min +\d+° +\d+°{to}( +[\d.]+°)? *")
+    assert len([row for row in rows if form.fullmatch(row)]) == len(rows)
+    assert (columns < 100) == any("…" in row for row in rows)
