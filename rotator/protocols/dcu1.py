@@ -7,13 +7,13 @@ docs/reference/wire.md).
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim
+from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
 MAX_COMMAND = 16
@@ -72,12 +72,12 @@ def encode(command: Command) -> bytes:
 
 def azimuth_reply(azimuth_deg: float) -> bytes:
     """`;235`: exactly four bytes, 000 to 359."""
-    return f";{math.floor(azimuth_deg + 0.5) % 360:03d}".encode()
+    return f";{whole(azimuth_deg) % 360:03d}".encode()
 
 
 def tenths_reply(azimuth_deg: float) -> bytes:
     """`235.0;`: at least four characters before the `;`, 0.0 to 359.9."""
-    return f"{math.floor(azimuth_deg * 10 + 0.5) % 3600 / 10:4.1f};".encode()
+    return f"{whole(azimuth_deg * 10) % 3600 / 10:4.1f};".encode()
 
 
 class Dcu1Session:

@@ -7,10 +7,11 @@ does with a command: `gs232_session` does. Sources: Yaesu's manuals of the GS-23
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass
 from enum import Enum
+
+from rotator.protocols.rounding import whole
 
 LEAST_AZIMUTHS = 2
 """In a timed list. The manual says so, and a program that adds an elevation to an M must not turn to it."""
@@ -192,11 +193,6 @@ def encode(command: Command) -> bytes:
     for azimuth_deg, elevation_deg in command.points or ((command.azimuth_deg, command.elevation_deg),):
         numbers += [angle for angle in (azimuth_deg, elevation_deg) if angle is not None]
     return (command.verb + " ".join(f"{whole(number):03d}" for number in numbers) + "\r").encode()
-
-
-def whole(angle_deg: float) -> int:
-    """Rounded to whole degrees, half up."""
-    return math.floor(angle_deg + 0.5)
 
 
 def azimuth_reply(dialect: Dialect, azimuth_deg: float) -> bytes:

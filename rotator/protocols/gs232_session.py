@@ -13,6 +13,7 @@ from rotator.exchange.status import AxisStatus
 from rotator.protocols import gs232
 from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand, OutOfRange
 from rotator.protocols.lines import LineReader
+from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
 _PLAIN_ORDERS: dict[str, Order] = {
@@ -179,7 +180,7 @@ class Gs232Session:
         # Noise of the pot just beyond an end of the range counts as that end, not as one turn away.
         axis_deg = min(max(azimuth.angle_deg or 0.0, azimuth.min_deg), azimuth.max_deg)
         points_deg = axis_deg + azimuth.correction_deg
-        return points_deg if 0 <= gs232.whole(points_deg) <= self._top_deg else points_deg % 360
+        return points_deg if 0 <= whole(points_deg) <= self._top_deg else points_deg % 360
 
     def _mode(self, top_deg: int) -> bytes:
         self._top_deg = top_deg

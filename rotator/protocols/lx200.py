@@ -7,10 +7,11 @@ Hamlib 4.5 (model 1801) and Stellarium send (see docs/reference/wire.md).
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass, field
 from enum import Enum
+
+from rotator.protocols.rounding import whole
 
 MAX_COMMAND = 32
 ACK = 0x06
@@ -173,7 +174,7 @@ def hours_reply(right_ascension_deg: float, *, long: bool) -> bytes:
     if long:
         hour, minute, second = _cut(right_ascension_deg / 15.0 * 3600, 24)
         return b"%02d:%02d:%02d#" % (hour, minute, second)
-    tenths = math.floor(right_ascension_deg / 15.0 * 600 + 0.5) % (24 * 600)
+    tenths = whole(right_ascension_deg / 15.0 * 600) % (24 * 600)
     return b"%02d:%02d.%d#" % (tenths // 600, tenths % 600 // 10, tenths % 10)
 
 
@@ -188,12 +189,12 @@ def around_reply(angle_deg: float, *, long: bool) -> bytes:
 
 
 def _degrees_reply(angle_deg: float, digits: int, around: int, *, long: bool) -> bytes:
-    degrees, minute, second = _cut(angle_deg * 3600 if long else math.floor(angle_deg * 60 + 0.5) * 60, around)
+    degrees, minute, second = _cut(angle_deg * 3600 if long else whole(angle_deg * 60) * 60, around)
     head = b"%0*d%b%02d" % (digits, degrees, DEGREE, minute)
     return head + (b":%02d#" % second if long else b"#")
 
 
 def _cut(seconds: float, around: int) -> tuple[int, int, int]:
     """Whole hours or degrees, minutes, seconds; from `around` on it begins again."""
-    whole = math.floor(seconds + 0.5)
-    return whole // 3600 % around, whole // 60 % 60, whole % 60
+    rounded_s = whole(seconds)
+    return rounded_s // 3600 % around, rounded_s // 60 % 60, rounded_s % 60

@@ -6,7 +6,7 @@ Knows no command.
 
 from __future__ import annotations
 
-from rotator.protocols.gs232 import whole
+from rotator.protocols.rounding import bearing, whole
 from rotator.protocols.session import Box, Session
 
 LOOK_S = 0.25
@@ -50,6 +50,4 @@ class MoveReport:
         if not self._moved or azimuth_deg is None or elevation_deg is None:
             return []
         self._moved = False
-        rounded = whole(azimuth_deg)
-        azimuth = rounded if 0 <= rounded <= 360 else rounded % 360
-        return [f"AZ = {azimuth}, EL = {whole(elevation_deg)}\r\n".encode()]
+        return [f"AZ = {bearing(azimuth_deg)}, EL = {whole(elevation_deg)}\r\n".encode()]

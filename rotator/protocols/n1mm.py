@@ -14,6 +14,7 @@ from xml.sax.saxutils import escape, unescape
 
 from rotator.exchange.orders import Aim, Stop
 from rotator.protocols.aiming import degrees
+from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
 REPORT_EVERY_S = 15.0
@@ -142,7 +143,7 @@ class N1mmReport:
         azimuth_deg = self._box.status().azimuth.points_deg
         if azimuth_deg is None:
             return None
-        tenths = math.floor(azimuth_deg * 10 + 0.5) % TURN_TENTHS
+        tenths = whole(azimuth_deg * 10) % TURN_TENTHS
         turned = abs((tenths - self._sent_tenths + TURN_TENTHS // 2) % TURN_TENTHS - TURN_TENTHS // 2)
         if turned < REPORT_MOVED_TENTHS and now_s - self._sent_s < REPORT_EVERY_S:
             return None

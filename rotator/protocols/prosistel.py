@@ -7,7 +7,6 @@ docs/reference/wire.md).
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass
 from enum import Enum
@@ -15,6 +14,7 @@ from enum import Enum
 from hw.ports import Axis
 from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim
+from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
 STX, CR = 0x02, 0x0D
@@ -150,5 +150,5 @@ class ProsistelSession:
         status = self._box.status().axis(axis)
         if status.angle_deg is None:
             return UNKNOWN
-        angle = max(0, math.floor(status.angle_deg * self._form.per_degree + 0.5))
+        angle = max(0, whole(status.angle_deg * self._form.per_degree))
         return f"{angle:0{3 if self._form.per_degree == 1 else 4}d},{'B' if status.moving else 'R'}"

@@ -7,7 +7,6 @@ docs/reference/wire.md).
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from dataclasses import dataclass
 from rotator.exchange.orders import Order, Park, Stop
 from rotator.orbits.earth import Site, direction
 from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
 ANSWERS_ABOVE = 1
@@ -158,15 +158,15 @@ class PstRotatorSession:
         azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
         match question:
             case "AZ?" if azimuth_deg is not None:
-                yield f"AZ:{_tenths(azimuth_deg) % 3600 / 10:05.1f}\r".encode()
+                yield f"AZ:{whole(azimuth_deg * 10) % 3600 / 10:05.1f}\r".encode()
             case "EL?" if elevation_deg is not None:
-                yield f"EL:{_tenths(elevation_deg) / 10:04.1f}\r".encode()
+                yield f"EL:{whole(elevation_deg * 10) / 10:04.1f}\r".encode()
             case "TGA?" if azimuth_deg is not None:
                 wanted_deg = status.wanted_azimuth_deg
-                yield f"TGA:{_whole(azimuth_deg if wanted_deg is None else wanted_deg) % 360:03d}\r".encode()
+                yield f"TGA:{whole(azimuth_deg if wanted_deg is None else wanted_deg) % 360:03d}\r".encode()
             case "TGE?" if elevation_deg is not None:
                 wanted_deg = status.wanted_elevation_deg
-                yield f"TGE:{_whole(elevation_deg if wanted_deg is None else wanted_deg):02d}\r".encode()
+                yield f"TGE:{whole(elevation_deg if wanted_deg is None else wanted_deg):02d}\r".encode()
             case "MODE?":
                 yield b"MODE:0\r"
 
@@ -183,11 +183,3 @@ def _angles_to(station: Site, text: str) -> dict[str, str]:
 
 def _is_listed(question: str) -> bool:
     return any(tag.text == question for tag in TAGS)
-
-
-def _tenths(angle_deg: float) -> int:
-    return math.floor(angle_deg * 10 + 0.5)
-
-
-def _whole(angle_deg: float) -> int:
-    return math.floor(angle_deg + 0.5)

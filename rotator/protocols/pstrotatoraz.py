@@ -8,7 +8,6 @@ and what they look for in the page (see docs/reference/wire.md).
 from __future__ import annotations
 
 import ipaddress
-import math
 import re
 from dataclasses import dataclass, field
 from http import HTTPStatus
@@ -16,6 +15,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from rotator.exchange.orders import Order, Stop
 from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
 MAX_REQUEST = 4096
@@ -92,7 +92,7 @@ def encode(target: str, host: str = "192.168.1.20") -> bytes:
 
 def page(azimuth_deg: float | None) -> str:
     """What programs look for is `Bearing = 235 deg`."""
-    bearing = "unknown" if azimuth_deg is None else f"{math.floor(azimuth_deg + 0.5) % 360} deg"
+    bearing = "unknown" if azimuth_deg is None else f"{whole(azimuth_deg) % 360} deg"
     return (
         "<!DOCTYPE html><html><head><title>PstRotatorAz</title></head><body>"
         f"<p>Bearing = {bearing}</p>"

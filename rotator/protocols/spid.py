@@ -7,9 +7,10 @@ the protocol, and what Hamlib 4.5 and 4.6 send to models 901, 902 and 903 (see d
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum, IntFlag
+
+from rotator.protocols.rounding import whole
 
 START, END = 0x57, 0x20
 LENGTH = 13
@@ -156,7 +157,7 @@ def encode(frame: Frame, model: Model, pulses: int) -> bytes:
 
 def azimuth_reply(azimuth_deg: float) -> bytes:
     """A Rot1Prog's five bytes: whole degrees in three bytes. The byte of a digit is its value 0 to 9, not ASCII."""
-    return bytes([START, *_digits(math.floor(azimuth_deg + 0.5))[:3], END])
+    return bytes([START, *_digits(whole(azimuth_deg))[:3], END])
 
 
 def position_reply(azimuth_deg: float, elevation_deg: float, pulses: int) -> bytes:
@@ -166,5 +167,5 @@ def position_reply(azimuth_deg: float, elevation_deg: float, pulses: int) -> byt
 
 def _digits(angle_deg: float) -> list[int]:
     """The four digits of an angle in tenths of a degree, with the offset."""
-    tenths = math.floor((angle_deg + OFFSET_DEG) * 10 + 0.5)
+    tenths = whole((angle_deg + OFFSET_DEG) * 10)
     return [int(digit) for digit in f"{min(max(tenths, 0), _MOST_TENTHS):04d}"]

@@ -9,7 +9,7 @@ from hw.ports import Axis
 from rotator.exchange.orders import Mode
 from rotator.exchange.spoken import short_sender
 from rotator.exchange.status import Status
-from rotator.protocols.gs232 import whole
+from rotator.protocols.rounding import bearing, whole
 from rotator.views.words import rise_or_set
 
 COLUMNS = 16
@@ -64,10 +64,7 @@ def _notices(status: Status) -> list[str]:
 
 
 def _azimuth(angle_deg: float | None) -> str:
-    if angle_deg is None:
-        return "---"
-    rounded = whole(angle_deg)
-    return f"{rounded if 0 <= rounded <= 360 else rounded % 360:03d}"
+    return "---" if angle_deg is None else f"{bearing(angle_deg):03d}"
 
 
 def _elevation(angle_deg: float | None) -> str:
