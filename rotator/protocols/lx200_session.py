@@ -10,7 +10,7 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 
 from hw.ports import Axis, Direction
-from rotator.control.sky.joining import direction
+from rotator.control.sky.angles import direction
 from rotator.exchange.orders import Aim, Jog, Order, Park, Stop
 from rotator.exchange.sources import Refusal
 from rotator.orbits.celestial import Equinox, Sky, Star

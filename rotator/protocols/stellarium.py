@@ -11,7 +11,7 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.control.sky.joining import direction
+from rotator.control.sky.angles import direction
 from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.protocols.session import Box
 from rotator.protocols.star_follower import StarFollower

@@ -7,12 +7,10 @@ an elevation above 90 names its turns, as a program does that plans by itself. D
 from __future__ import annotations
 
 import difflib
-from bisect import bisect_right
 from dataclasses import dataclass
 from pathlib import Path
 
-from rotator.control.sky.angles import turn_deg
-from rotator.control.sky.known_path import Row
+from rotator.control.sky.known_path import Row, direction_at, rows_around
 from rotator.control.sky.named_turns import names_turns, on_the_sky
 from rotator.control.sky.timed_table import TimedTable
 from rotator.protocols.table_text import FORM, TableError, read_table
@@ -60,13 +58,10 @@ class Pass:
 
     def sent_at(self, t_s: float) -> tuple[float, float]:
         """The same as a program sends it: where the rows name the turns, their angles as they stand."""
-        after = min(max(bisect_right(self.rows, t_s, key=lambda row: row[0]), 1), len(self.rows) - 1)
-        (t_a, az_a, el_a), (t_b, az_b, el_b) = self.rows[after - 1], self.rows[after]
-        share = min(max((t_s - t_a) / (t_b - t_a), 0.0), 1.0)
-        elevation_deg = el_a + share * (el_b - el_a)
-        if self.turns:
-            return az_a + share * (az_b - az_a), elevation_deg
-        return (az_a + share * turn_deg(az_a, az_b)) % 360.0, elevation_deg
+        if not self.turns:
+            return direction_at(self.rows, t_s)
+        (_, az_a, el_a), (_, az_b, el_b), share = rows_around(self.rows, t_s)
+        return az_a + share * (az_b - az_a), el_a + share * (el_b - el_a)
 
 
 def shipped_names() -> list[str]:

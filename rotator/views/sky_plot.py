@@ -15,7 +15,7 @@ from itertools import groupby
 
 from rich.text import Text
 
-from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.angles import direction, great_circle_deg
 from rotator.control.sky.mount import Mount
 from rotator.exchange.status import Status
 
@@ -32,13 +32,6 @@ _TRAIL_STEP_DEG, _TRAIL_S = 1.5, 1200.0
 
 Way = tuple[float, float]
 """A direction: azimuth and elevation in degrees, elevation up to 90."""
-
-
-def direction(azimuth_deg: float, elevation_deg: float) -> Way:
-    """The direction of an antenna at these axis angles, also on another turn or over the top."""
-    if elevation_deg > 90.0:
-        azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
-    return azimuth_deg % 360.0, elevation_deg
 
 
 def pointing(status: Status) -> Way | None:

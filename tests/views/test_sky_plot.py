@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rotator.control.sky.angles import direction
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.exchange.status import AxisStatus, Status
-from rotator.views.sky_plot import ANTENNA, BOTH, TARGET, Trail, direction, off_deg, plot
+from rotator.views.sky_plot import ANTENNA, BOTH, TARGET, Trail, off_deg, plot
 from tests.search import examples
 
 COLUMNS, ROWS = 61, 31

@@ -18,6 +18,14 @@ def turn_deg(from_deg: float, to_deg: float) -> float:
     return (to_deg - from_deg + 180.0) % 360.0 - 180.0
 
 
+def direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
+    """Where the antenna points, on any turn and over the top or not, as the direction on the sky: azimuth 0 to below
+    360, elevation up to 90."""
+    if elevation_deg > ZENITH_DEG:
+        azimuth_deg, elevation_deg = azimuth_deg + HALF_TURN_DEG, HALF_TURN_DEG - elevation_deg
+    return azimuth_deg % FULL_TURN_DEG, elevation_deg
+
+
 def great_circle_deg(
     azimuth_a_deg: float, elevation_a_deg: float, azimuth_b_deg: float, elevation_b_deg: float
 ) -> float:

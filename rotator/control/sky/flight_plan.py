@@ -7,12 +7,11 @@ loop, and comes back to it as an order. Knows neither sensors nor the sender of 
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from rotator.control.sky.known_path import KnownPath, Row
+from rotator.control.sky.known_path import KnownPath, Row, rows_around
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.route import STEP_S, Speeds, Way
 from rotator.control.sky.steps import Trail, best_steps
@@ -103,10 +102,8 @@ def plan_given_angles(
 
 
 def _between(rows: Sequence[Row], column: int, at_s: float) -> float:
-    after = min(max(bisect_right(rows, at_s, key=lambda row: row[0]), 1), len(rows) - 1)
-    a, b = rows[after - 1], rows[after]
-    share = min(max((at_s - a[0]) / (b[0] - a[0]), 0.0), 1.0)
-    return a[column] + share * (b[column] - a[column])
+    before, after, share = rows_around(rows, at_s)
+    return before[column] + share * (after[column] - before[column])
 
 
 def _axis_plan(trail: Trail, motor: PlannedMotor, limits: Range, now_s: float) -> AxisPlan:

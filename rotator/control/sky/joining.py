@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rotator.control.sky.angles import ZENITH_DEG, Coordinates
+from rotator.control.sky.angles import ZENITH_DEG, Coordinates, direction
 from rotator.control.sky.mount import Mount
 from rotator.exchange.orders import Aim
 
@@ -43,11 +43,3 @@ def places(*axes: tuple[float | None, float | None]) -> Coordinates:
     """Where azimuth and elevation go, or stand if they have no target. `axes`: of each its target and its angle."""
     azimuth_deg, elevation_deg = (angle_deg if target_deg is None else target_deg for target_deg, angle_deg in axes)
     return azimuth_deg, elevation_deg
-
-
-def direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
-    """Where the antenna points, over the top or not, as the direction on the sky: azimuth 0 to below 360, elevation up
-    to 90."""
-    if elevation_deg > ZENITH_DEG:
-        return (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
-    return azimuth_deg % 360.0, elevation_deg

@@ -16,6 +16,19 @@ Row = tuple[float, float, float]
 """A moment in seconds; azimuth and elevation in degrees."""
 
 
+def rows_around(rows: Sequence[Row], at_s: float) -> tuple[Row, Row, float]:
+    """The rows before and after this moment, and the share of the way between them. Beyond an end: that end's row."""
+    after = min(max(bisect_right(rows, at_s, key=lambda row: row[0]), 1), len(rows) - 1)
+    begins_s, ends_s = rows[after - 1][0], rows[after][0]
+    return rows[after - 1], rows[after], min(max((at_s - begins_s) / (ends_s - begins_s), 0.0), 1.0)
+
+
+def direction_at(rows: Sequence[Row], at_s: float) -> tuple[float, float]:
+    """Azimuth from 0 to below 360, and elevation, at this moment. Azimuth takes the short way round."""
+    (_, az_a, el_a), (_, az_b, el_b), share = rows_around(rows, at_s)
+    return (az_a + share * turn_deg(az_a, az_b)) % 360.0, el_a + share * (el_b - el_a)
+
+
 @dataclass(frozen=True, slots=True)
 class KnownPath:
     """Two rows or more, at rising moments. Raises ValueError."""
@@ -38,10 +51,7 @@ class KnownPath:
 
     def direction(self, at_s: float) -> tuple[float, float]:
         """Azimuth from 0 to below 360, and elevation; before the first row and after the last one, that row's."""
-        after = min(max(bisect_right(self.rows, at_s, key=lambda row: row[0]), 1), len(self.rows) - 1)
-        (a_s, az_a, el_a), (b_s, az_b, el_b) = self.rows[after - 1], self.rows[after]
-        share = min(max((at_s - a_s) / (b_s - a_s), 0.0), 1.0)
-        return (az_a + share * turn_deg(az_a, az_b)) % 360.0, el_a + share * (el_b - el_a)
+        return direction_at(self.rows, at_s)
 
     def directions(self, from_s: float, every_s: float) -> Sequence[tuple[float, float]]:
         """The directions every `every_s` seconds, from `from_s` to the end."""

@@ -11,7 +11,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 
 from rotator.control.refused import Refused
-from rotator.control.sky.angles import ZENITH_DEG, turn_deg
+from rotator.control.sky.angles import ZENITH_DEG, direction, turn_deg
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
 
 _EITHER_WAY_DEG = 1.0
@@ -99,7 +99,7 @@ class Mount:
             level_deg, _ = self._angles(azimuth_deg, 0.0)
             return self._turn(level_deg, near_azimuth_deg), None
         if elevation_deg > ZENITH_DEG and not self.elevation.holds(elevation_deg):
-            azimuth_deg, elevation_deg = (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
+            azimuth_deg, elevation_deg = direction(azimuth_deg, elevation_deg)
         axis_azimuth_deg, axis_elevation_deg = self._angles(azimuth_deg, elevation_deg)
         if over or (self.flip and not self._turns(axis_azimuth_deg)):
             there = self._angles(azimuth_deg + 180.0, 180.0 - elevation_deg)

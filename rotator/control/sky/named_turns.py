@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG, direction
 from rotator.control.sky.known_path import Row
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.control.sky.timed_table import (
@@ -87,6 +87,4 @@ def axis_rows(table: TimedTable, points: Sequence[Row], mount: Mount) -> tuple[R
 def on_the_sky(row: Row) -> Row:
     """The direction of a row, as displays show it."""
     at_s, azimuth_deg, elevation_deg = row
-    if elevation_deg > ZENITH_DEG:
-        azimuth_deg, elevation_deg = azimuth_deg + FULL_TURN_DEG / 2, 2 * ZENITH_DEG - elevation_deg
-    return at_s, azimuth_deg % FULL_TURN_DEG, elevation_deg
+    return at_s, *direction(azimuth_deg, elevation_deg)

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import math
 
-from rotator.control.sky.angles import FULL_TURN_DEG, HALF_TURN_DEG, ZENITH_DEG, great_circle_deg
+from rotator.control.sky.angles import FULL_TURN_DEG, HALF_TURN_DEG, ZENITH_DEG, direction, great_circle_deg
 from rotator.control.sky.goal import AimGoal, Goals
-from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.control.sky.plan import OFFSETS_S
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way

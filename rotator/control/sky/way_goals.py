@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from rotator.control.sky.angles import direction
 from rotator.control.sky.goal import EVEN, AimGoal, Goals
-from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.plan import Path
 from rotator.control.sky.route import Way

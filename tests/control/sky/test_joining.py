@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.control.sky.joining import direction, joined, places
+from rotator.control.sky.angles import direction
+from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing_model import PointingModel
 from rotator.exchange.orders import Aim
