@@ -24,6 +24,8 @@ LEAST_DEG = 0.02
 RISING_DEG = -0.3
 """Degrees: below this elevation of the path, an order for the horizon shows nothing about the satellite."""
 FINEST_DEG = 0.01
+SINGLE_DEG = 2e-5
+"""Degrees: Hamlib's angles have single precision. It sends 110.1° as 110.099998."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +105,7 @@ def rounding_deg(orders: Sequence[Heard]) -> float:
     """The rounding of the orders: whole degrees, tenths or hundredths."""
     angles_deg = [angle for each in orders for angle in (each.azimuth_deg, each.elevation_deg)]
     for rounding in (1.0, 0.1):
-        if all(abs(angle / rounding - round(angle / rounding)) < 1e-6 for angle in angles_deg):
+        if all(abs(angle - rounding * round(angle / rounding)) < SINGLE_DEG for angle in angles_deg):
             return rounding
     return FINEST_DEG
 
