@@ -37,10 +37,11 @@ class Flight:
         self.following = following
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
+        rises_s = self._path.begin_s if order.rises_s is None else order.rises_s
         sets_s = self._path.end_s if order.sets_s is None else order.sets_s
         self.flown = Flown(
             order.name,
-            self._path.begin_s,
+            rises_s,
             sets_s,
             order.expected_error_deg,
             recognised=following is not None,

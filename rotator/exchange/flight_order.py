@@ -65,6 +65,8 @@ class Fly:
     """The target's directions: (moment in s, azimuth, elevation), rising, two or more."""
     azimuth: AxisPlan
     elevation: AxisPlan
+    rises_s: float | None = None
+    """When the target rises or has risen, if that is before the beginning of the path."""
     sets_s: float | None = None
     """When the target sets, if that is after the end of the path; infinite: it does not set."""
     expected_error_deg: float = 0.0

@@ -91,8 +91,11 @@ def flight_between(
     begin_s, end_s = span_s
     path = target_path(target, begin_s, end_s, now.apart_s)
     order = plan_flight(target.name, path, antenna, now.loop_s, begin_on=begin_on).order
+    # Of a pass that is flown in part, the whole is shown: it may be up while the antenna is still on its way.
+    rises_s = (now.utc_s if found.aos_s is None else found.aos_s) - now.apart_s
     sets_s = math.inf if found.los_s is None else found.los_s - now.apart_s
-    order = replace(order, sets_s=sets_s, expected_error_deg=_error_deg(target, begin_s, end_s, now.clock_s))
+    error_deg = _error_deg(target, begin_s, end_s, now.clock_s)
+    order = replace(order, rises_s=rises_s, sets_s=sets_s, expected_error_deg=error_deg)
     return NextFlight(begin_s, end_s, order)
 
 

@@ -99,8 +99,8 @@ class Recorder:
         up = flown is not None and flown.begin_s <= status.at_s
         if self._running is not None and (flown is None or not up or flown.name != self._running.name):
             self.end()
-        if flown is None or not up or order is None or order.name != flown.name:
-            return
+        if flown is None or not up or order is None or order.name != flown.name or status.at_s < order.path[0][0]:
+            return  # also where the antenna is on its way to a target that is up already
         if self._running is None:
             self._running = _Running(flown.name, status.at_s, KnownPath(order.path))
         elif self._running.path.rows is not order.path:

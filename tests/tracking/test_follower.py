@@ -12,9 +12,11 @@ from rotator.config.load import parse
 from rotator.exchange.orders import Aim, GiveBack, Order, Release, Stop, Take
 from rotator.exchange.sources import Source
 from rotator.protocols.console import Track
+from rotator.protocols.console_session import tracked
 from rotator.protocols.operating import Operating
 from rotator.runtime.client import Client
 from rotator.tracking.tracker import CLOCK_UNSURE
+from rotator.views.words import rise_or_set
 from tests.search import some
 from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
 
@@ -90,6 +92,22 @@ def test_a_stop_that_comes_while_it_plans_is_not_undone_by_the_plan(rise: Box) -
     rise.wait(105.0)
     assert rise.loop.status.flown is None
     assert rise.loop.status.controlled_by == ""
+
+
+def test_while_it_turns_to_a_pass_that_is_on_already_the_displays_count_to_its_setting() -> None:
+    """The antenna is 220° away: it is there half a minute later, and the target does not rise then."""
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    assert found.los_s is not None
+    box = Box(found.aos_s + 60.0, follow=FOLLOWS_ISS)
+    box.wait(5.0)
+    status = box.loop.status
+    assert status.moving
+    assert status.flown is not None
+    assert status.at_s - status.flown.begin_s == pytest.approx(box.utc_s - found.aos_s, abs=1.0)
+    assert status.flown.end_s - status.at_s == pytest.approx(found.los_s - box.utc_s, abs=1.0)
+    assert tracked(status.flown, status.at_s).startswith("ISS, up for ")
+    assert rise_or_set(status.flown, status.at_s).startswith("LOS ")
 
 
 def test_when_a_person_has_given_the_antenna_back_the_plan_goes_on_at_once(rise: Box) -> None:

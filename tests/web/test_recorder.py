@@ -22,8 +22,10 @@ def order(name: str = "ISS") -> Fly:
     return Fly(name, ((RISE_S, 90.0, 0.0), (400.0, 180.0, 60.0), (SET_S, 270.0, 0.0)), PLAN, PLAN)
 
 
-def status(at_s: float, name: str | None = "ISS", *, starts: int | None = 0, off_deg: float = 2.0) -> Status:
-    flown = None if name is None else Flown(name, RISE_S, SET_S)
+def status(
+    at_s: float, name: str | None = "ISS", *, starts: int | None = 0, off_deg: float = 2.0, rises_s: float = RISE_S
+) -> Status:
+    flown = None if name is None else Flown(name, rises_s, SET_S)
     azimuth = AxisStatus(0, 450, angle_deg=90.0 + (at_s - RISE_S) * 0.3 + off_deg, starts=starts)
     elevation = AxisStatus(0, 90, angle_deg=30.0, starts=starts)
     return Status(at_s, azimuth, elevation, flown=flown)
@@ -54,6 +56,14 @@ def test_a_pass_is_recorded_from_its_rise_to_its_end() -> None:
     assert (middle.target_az, middle.target_el) == pytest.approx((180.0, 60.0), abs=0.2)
     assert 5.0 < record.rms_deg < 40.0
     assert record.relay_starts == 0
+
+
+def test_a_target_that_was_up_before_the_antenna_was_there_is_recorded_from_then_on() -> None:
+    watched = Watched()
+    watched.look(RISE_S - 50.0, SET_S, rises_s=RISE_S - 100.0)
+    watched.recorder.look(status(SET_S, None))
+    (record,) = watched.over
+    assert record.begin_s == pytest.approx(RISE_S, abs=0.2)
 
 
 def test_every_click_is_in_it_though_it_came_between_two_looks() -> None:
