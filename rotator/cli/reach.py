@@ -105,8 +105,8 @@ def named(running: Sequence[Path], here: Path | None = None) -> list[str]:
 
 
 def _which(running: Sequence[Path], here: Path) -> str:
-    told = "; ".join(named(running, here))
-    return f"{len(running)} boxes run: {told}. Say which: name its file with --config, or go into its folder"
+    names = "; ".join(named(running, here))
+    return f"{len(running)} boxes run: {names}. Say which: name its file with --config, or go into its folder"
 
 
 def connected(place: Path) -> socket.socket | None:

@@ -70,10 +70,10 @@ class RunKeys:
         else:
             self._show(typed)
 
-    def _stop(self, said: str = "") -> None:
+    def _stop(self, note: str = "") -> None:
         self._escape = ""
         self._box.order(Stop(latch=True))
-        self._show("", said)
+        self._show("", note)
 
     def _enter(self) -> None:
         word = self._typed

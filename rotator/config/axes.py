@@ -63,15 +63,15 @@ class AxisTable(Table):
     def _limits_fault(self) -> str:
         """What to write, for limits that leave nothing between them. A limit that the file leaves out is named too."""
         least, most = f"min_deg ({self.min_deg:g})", f"max_deg ({self.max_deg:g})"
-        said = f"{least} must be below {most}"
+        rule = f"{least} must be below {most}"
         match "min_deg" in self.model_fields_set, "max_deg" in self.model_fields_set:
             case True, True if self.min_deg > self.max_deg:
-                return f"{said}: swap the two"
+                return f"{rule}: swap the two"
             case False, True:
-                return f"{said}; the file leaves min_deg out: write a greater max_deg, or a min_deg below it"
+                return f"{rule}; the file leaves min_deg out: write a greater max_deg, or a min_deg below it"
             case True, False:
-                return f"{said}; the file leaves max_deg out: write a lower min_deg, or a max_deg above it"
-        return f"{said}: write both stops of the rotor"
+                return f"{rule}; the file leaves max_deg out: write a lower min_deg, or a max_deg above it"
+        return f"{rule}: write both stops of the rotor"
 
 
 class Azimuth(AxisTable):

@@ -88,12 +88,12 @@ def seen_again(tables: Sequence[ForbiddenTable], axes: Mapping[Axis, AxisTable])
             (f"over the top the antenna meets {table.name} too", turn_deg, 180.0 - high_deg, 180.0 - low_deg)
             for turn_deg in (-180.0, 180.0)
         ]
-        for what, turn_deg, bottom_deg, top_deg in again:
+        for sentence, turn_deg, bottom_deg, top_deg in again:
             west, east = max(west_deg + turn_deg, azimuth.min_deg), min(east_deg + turn_deg, azimuth.max_deg)
             bottom, top = max(bottom_deg, elevation.min_deg), min(top_deg, elevation.max_deg)
             if west < east and bottom < top and not _met(tables, (west, east), (bottom, top)):
                 keys = f"azimuth_deg = [{west:g}, {east:g}], elevation_deg = [{bottom:g}, {top:g}]"
-                found.append((what, keys))
+                found.append((sentence, keys))
     return found
 
 

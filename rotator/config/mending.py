@@ -82,16 +82,16 @@ def _brackets(text: str, tables: Collection[str], lists: Collection[str]) -> tup
     mistakes = []
     for each in statements(text):
         found = shown(rows[each.line - 1].partition("#")[0])
-        said = ".".join(each.keys) if each.keys else found.rstrip(":").strip()
+        path = ".".join(each.keys) if each.keys else found.rstrip(":").strip()
         if each.keys and not each.brackets:
             continue
-        name = said if said in (*tables, *lists) else _near(said.lower(), (*tables, *lists), same=not each.brackets)
-        if name is None or (said == name and each.brackets == (2 if name in lists else 1)):
+        name = path if path in (*tables, *lists) else _near(path.lower(), (*tables, *lists), same=not each.brackets)
+        if name is None or (path == name and each.brackets == (2 if name in lists else 1)):
             continue
         rows[each.line - 1] = right = f"[[{name}]]" if name in lists else f"[{name}]"
         if not each.brackets:
             why = "a heading stands in brackets"
-        elif said != name:
+        elif path != name:
             why = "there is no such table"
         else:
             why = "there may be several, so it has two brackets" if name in lists else "there is one, with one bracket"
@@ -114,15 +114,15 @@ def _mistake(text: str, reason: str, sorts: Mapping[str, Sort]) -> tuple[Mistake
     for each in found:
         if each.unclosed and each.line <= line:
             row = rows[each.last - 1]
-            said = f"{shown(rows[each.line - 1])}: {each.unclosed} is missing at its end"
+            advice = f"{shown(rows[each.line - 1])}: {each.unclosed} is missing at its end"
             if each.unclosed[0] in "\"'":
-                return Mistake(said, (each.line,)), each.line, None, ""
-            return Mistake(said, (each.line,)), each.last, _closed(row, each.unclosed), ""
+                return Mistake(advice, (each.line,)), each.line, None, ""
+            return Mistake(advice, (each.line,)), each.last, _closed(row, each.unclosed), ""
     this = next((each for each in found if each.line <= line <= each.last), None)
     if this and this.keys and _TWICE.search(reason):
         return *_twice(text, this, rows[this.line - 1]), ""
-    what = slip(rows[line - 1], _PLACE.sub("", reason), sorts)
-    return Mistake(what.advice, (line,)), line, what.mended, what.why
+    slipped = slip(rows[line - 1], _PLACE.sub("", reason), sorts)
+    return Mistake(slipped.advice, (line,)), line, slipped.mended, slipped.why
 
 
 def _closed(row: str, brackets: str) -> str:
@@ -135,6 +135,6 @@ def _twice(text: str, this: Statement, row: str) -> tuple[Mistake, int, str | No
     first = min(lines, default=this.line)
     where = f"in line {first} already" if first < this.line else "in the file already"
     if this.brackets:
-        said = f"{shown(row.partition('#')[0])} is {where}: write its keys there, under one heading"
-        return Mistake(said, (this.line,)), this.line, f'["{SCRATCH}{this.line}"]'
+        advice = f"{shown(row.partition('#')[0])} is {where}: write its keys there, under one heading"
+        return Mistake(advice, (this.line,)), this.line, f'["{SCRATCH}{this.line}"]'
     return Mistake(f"{shown(row)}: this key is {where}: leave one of the two", (this.line,)), this.line, ""

@@ -43,13 +43,13 @@ def mistakes_in(text: str) -> list[Mistake]:
         except ValidationError as invalid:
             errors = invalid.errors()
         # A line that could not be read may hold just what is missing.
-        told = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
-        told = [error for error in told if not _follows(error, replaced)]
-        new = [mistake for error in told for mistake in _located(error, lines) if mistake not in seen]
+        shown_errors = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
+        shown_errors = [error for error in shown_errors if not _follows(error, replaced)]
+        new = [mistake for error in shown_errors for mistake in _located(error, lines) if mistake not in seen]
         seen += new
         for mistake in (Mistake(_counted(each.text, several), each.lines) for each in new):
             _tell(mistake, found, mended.whys)
-        if any(not error["loc"] for error in errors) or (told and not new):
+        if any(not error["loc"] for error in errors) or (shown_errors and not new):
             break
         replaced |= {tuple(error["loc"]) for error in errors}
         # One mistake can hide another: limits are compared only if both are numbers. Mend the values, and check again.
@@ -96,8 +96,8 @@ def _located(error: ErrorDetails, lines: Mapping[Place, tuple[int, ...]]) -> Ite
         if error["type"] != "value_error":
             yield Mistake(words, _line_of(place, lines))
             continue
-        said = words.removeprefix(f"{_dotted(place)}:") if place else words
-        named = [line for path in _PATHS.findall(said) for line in lines.get((*place, *_place(path)), ())]
+        sentence = words.removeprefix(f"{_dotted(place)}:") if place else words
+        named = [line for path in _PATHS.findall(sentence) for line in lines.get((*place, *_place(path)), ())]
         yield Mistake(words, tuple(sorted(set(named))) or _line_of(place, lines))
 
 

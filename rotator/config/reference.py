@@ -63,7 +63,7 @@ def _usual() -> str:
     return f"### By kind of rotor\n\n{intro}\n\n" + "\n".join(lines)
 
 
-def _tables(models: list[tuple[str, type[BaseModel]]], told: dict[Row, str]) -> Iterator[str]:
+def _tables(models: list[tuple[str, type[BaseModel]]], first_tables: dict[Row, str]) -> Iterator[str]:
     """The tables inside these models: one model, or those of both axes, which have the same keys."""
     fields = models[0][1].model_fields
     for name, field in fields.items():
@@ -71,13 +71,13 @@ def _tables(models: list[tuple[str, type[BaseModel]]], told: dict[Row, str]) -> 
             continue
         names = _AXES if name == _AXES[0] and _AXES[1] in fields else (name,)
         tables = [(f"{prefix}{each}", model.model_fields[each]) for prefix, model in models for each in names]
-        yield from _section(tables, told)
+        yield from _section(tables, first_tables)
         within = [(f"{path}.", kind) for path, each in tables if (kind := table_of(each)[0]) is not None]
-        yield from _tables(within, told)
+        yield from _tables(within, first_tables)
 
 
-def _section(tables: list[tuple[str, FieldInfo]], told: dict[Row, str]) -> Iterator[str]:
-    """One table of the file, or the same table of both axes. `told`: the keys so far, and the table of each."""
+def _section(tables: list[tuple[str, FieldInfo]], first_tables: dict[Row, str]) -> Iterator[str]:
+    """One table of the file, or the same table of both axes. `first_tables`: the first table of each key so far."""
     headings = [f"[[{path}]]" if table_of(field)[1] else f"[{path}]" for path, field in tables]
     yield f"### {' and '.join(f'`{heading}`' for heading in headings)}"
     sentences = [_described(*each) for each in zip(headings, (field for _, field in tables), strict=True)]
@@ -88,14 +88,14 @@ def _section(tables: list[tuple[str, FieldInfo]], told: dict[Row, str]) -> Itera
         for path, field in tables
         if (kind := table_of(field)[0]) is not None
     ]
-    lines = list(_lines([_merged(*each) for each in zip(*rows, strict=True)], headings[0], told))
+    lines = list(_lines([_merged(*each) for each in zip(*rows, strict=True)], headings[0], first_tables))
     if lines:
         yield "\n".join(lines)
 
 
-def _lines(rows: list[Row], table: str, told: dict[Row, str]) -> Iterator[str]:
+def _lines(rows: list[Row], table: str, first_tables: dict[Row, str]) -> Iterator[str]:
     """The lines of a list. Neighbours with one meaning share a line, and keys of an earlier table are only named."""
-    for before, same in groupby(rows, key=told.get):
+    for before, same in groupby(rows, key=first_tables.get):
         if before is not None:
             yield f"- {', '.join(key for key, *_ in same)}: as in `{before}`."
             continue
@@ -104,7 +104,7 @@ def _lines(rows: list[Row], table: str, told: dict[Row, str]) -> Iterator[str]:
             values = "; ".join(filter(None, (", ".join(each if len(set(each)) > 1 else each[:1]) for each in cells)))
             yield f"- {', '.join(keys)}{f' ({values})' if values else ''}: {meaning}"
     for row in rows:
-        told.setdefault(row, table)
+        first_tables.setdefault(row, table)
 
 
 def _merged(row: Row, other: Row | None = None) -> Row:
@@ -136,9 +136,9 @@ def _allowed(kind: Any, limits: list[Any], field: FieldInfo) -> str:
     return "" if kind is bool else f"{_KINDS[kind]} {bounds}".strip()
 
 
-def _described(what: str, field: FieldInfo) -> str:
+def _described(heading: str, field: FieldInfo) -> str:
     if not field.description:
-        raise ValueError(f"{what} has no description: write a docstring below it")
+        raise ValueError(f"{heading} has no description: write a docstring below it")
     return field.description
 
 

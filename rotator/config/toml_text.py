@@ -45,7 +45,7 @@ def read(path: Path) -> str:
                 (line,),
             )
         ) from fault
-    if begins_as := next((what for mark, what in _OTHERS if text.lstrip()[:1] == mark), None):
+    if begins_as := next((kind for mark, kind in _OTHERS if text.lstrip()[:1] == mark), None):
         raise NoTextError(Mistake(f"{begins_as}: `rotator config --list` shows the shipped files, and how to get one"))
     return text
 

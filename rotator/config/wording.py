@@ -68,8 +68,8 @@ def explain(error: ErrorDetails) -> str:
             return f"{key}: must be given{', one of ' if choices else ''}{', '.join(choices)}"
         case "literal_error":
             allowed = [str(choice) for choice in _choices(context)]
-            said = f"{key} = {show(value)}: must be one of {', '.join(allowed)}"
-            return said + (_right_choice(value, allowed) or (_right_type(value) if key == "rotor.type" else ""))
+            sentence = f"{key} = {show(value)}: must be one of {', '.join(allowed)}"
+            return sentence + (_right_choice(value, allowed) or (_right_type(value) if key == "rotor.type" else ""))
         case "value_error" if not place:
             return str(context["error"])
         case "value_error":

@@ -52,8 +52,8 @@ def has_sectors(config: Config) -> bool:
 
 def sectors(config: Config) -> Iterator[Finding]:
     again = seen_again(config.mount.forbidden, {axis: config.axis(axis) for axis in Axis})
-    for what, keys in again:
-        yield warn(what, f"If the antenna touches it there, add a [[mount.forbidden]] with {keys}.")
+    for sentence, keys in again:
+        yield warn(sentence, f"If the antenna touches it there, add a [[mount.forbidden]] with {keys}.")
     if not again:
         yield fine(", ".join(table.name for table in config.mount.forbidden))
 

@@ -11,7 +11,7 @@ from typing import Any
 from hw.ports import Axis
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine, Silent
-from rotator.exchange.spoken import held, sender, spoken
+from rotator.exchange.spoken import held_by, sender, spoken
 
 START_ANEW = (
     "Keep its log, then start it anew: sudo systemctl restart rotator; without the service Ctrl-C and rotator run."
@@ -39,8 +39,7 @@ def _faults(status: dict[str, Any]) -> Iterator[Finding]:
 
 def _held(status: dict[str, Any]) -> Iterator[Finding]:
     if by := status["stopped_by"]:
-        what, until = held(storm=status["storm_park"])
-        yield warn(f"{what} {sender(by)}: {until}", "rotator resume lets it move again.")
+        yield warn(held_by(sender(by), storm=status["storm_park"]), "rotator resume lets it move again.")
     if (mode := status["panel_mode"]) != "auto":
         yield warn(f"the panel's switch is at {mode.upper()}: programs move nothing", "Turn the switch to AUTO.")
 

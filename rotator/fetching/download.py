@@ -200,7 +200,7 @@ def checked(content: bytes, utc_s: float) -> int:
 
 def no_answer(fault: object) -> str:
     """For a person, in one line."""
-    said = getattr(fault, "strerror", None) or str(fault) or type(fault).__name__
+    reason = getattr(fault, "strerror", None) or str(fault) or type(fault).__name__
     if isinstance(fault, TimeoutError):
-        said = f"it took longer than {ANSWER_S:g} s"
-    return f"no answer: {' '.join(str(said).split())}"
+        reason = f"it took longer than {ANSWER_S:g} s"
+    return f"no answer: {' '.join(str(reason).split())}"

@@ -72,5 +72,5 @@ def meant(name: str, by_name: dict[str, set[int]]) -> Collection[int]:
     a number does not count."""
     if found := by_name.get(plain(name)):
         return found
-    said = without_zero(name)
-    return {number for known, numbers in by_name.items() if without_zero(known) == said for number in numbers}
+    without = without_zero(name)
+    return {number for known, numbers in by_name.items() if without_zero(known) == without for number in numbers}

@@ -46,10 +46,10 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
     there = fixed(words)
     if there is not None:
         return there
-    said = plain(words)
-    if said in BODIES:
-        return Body(said, site)
-    source = next((name for name in RADIO_SOURCES if plain(name) == said), None)
+    plain_words = plain(words)
+    if plain_words in BODIES:
+        return Body(plain_words, site)
+    source = next((name for name in RADIO_SOURCES if plain(name) == plain_words), None)
     if source is not None:
         return RadioSource(source, site)
     # The name of a satellite may look like a locator: SO50 is a satellite, and also a field and square.

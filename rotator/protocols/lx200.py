@@ -118,16 +118,16 @@ class CommandReader:
 
 def parse(text: bytes) -> Command | Kind:
     """The command between `:` and `#`. What holds a damaged stop is a stop; other damaged text is no command."""
-    said = text.decode("latin-1")
-    if len(text) <= MAX_COMMAND and f":{STOP}" not in said:
+    words = text.decode("latin-1")
+    if len(text) <= MAX_COMMAND and f":{STOP}" not in words:
         for verb in _BY_LENGTH:
-            if said == verb.text and not verb.takes:
+            if words == verb.text and not verb.takes:
                 return Command(verb.text)
-            if verb.takes and said.startswith(verb.text):
-                return Command(verb.text, said[len(verb.text) :])
-        if said in ("Qs", "Qw"):
-            return Command({"Qs": "Qn", "Qw": "Qe"}[said])
-    return Command(STOP) if said.startswith(STOP) or f":{STOP}" in said else Kind.UNKNOWN
+            if verb.takes and words.startswith(verb.text):
+                return Command(verb.text, words[len(verb.text) :])
+        if words in ("Qs", "Qw"):
+            return Command({"Qs": "Qn", "Qw": "Qe"}[words])
+    return Command(STOP) if words.startswith(STOP) or f":{STOP}" in words else Kind.UNKNOWN
 
 
 def hours(text: str) -> float | None:

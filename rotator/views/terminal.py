@@ -188,16 +188,16 @@ def _top(glass: Sequence[str], status: Status, wires: Sequence[WireView], width:
     """The activity of the box, its sender and its error; beside the display if there is room."""
     words, style = headline(status)
     mode = f"panel at {status.mode.name}, " if status.mode_switch else ""
-    said = [
+    texts = [
         Text(words, style=style),
         Text(f"{mode}{orders_from(status, wires)}"),
         Text(off_target(status), style="bold"),
         Text(pass_starts(status), style="dim"),
     ]
     if width >= WIDE and height >= _GLASS_ROWS:
-        yield from _glass_beside(glass, said)
+        yield from _glass_beside(glass, texts)
         return
-    for text, rank in zip(said, (_KEYS, _WHO, _SCALES, _NOTE), strict=True):
+    for text, rank in zip(texts, (_KEYS, _WHO, _SCALES, _NOTE), strict=True):
         if text:
             yield Row(text, rank)
 

@@ -50,23 +50,23 @@ def api_page(described: dict[str, Any]) -> str:
 def _request(way: str, path: str, one: dict[str, Any]) -> str:
     """One request, to unfold."""
     needs = "needs a token" if _needs_token(one) else ""
-    told = [f"<summary><b>{way} {path}</b> {_text(one['summary'])} <small>{needs}</small></summary>"]
+    html = [f"<summary><b>{way} {path}</b> {_text(one['summary'])} <small>{needs}</small></summary>"]
     for each in one.get("parameters", ()):
         name = f"?{each['name']}=" if each["in"] == "query" else f"{each['name']}:"
-        told.append(f"<p><code>{name}</code> {_text(each['description'])}</p>")
+        html.append(f"<p><code>{name}</code> {_text(each['description'])}</p>")
     if "description" in one:
-        told.append("".join(_paragraph(part) for part in one["description"].strip().split("\n\n")))
+        html.append("".join(_paragraph(part) for part in one["description"].strip().split("\n\n")))
     else:
-        told.append(f"<pre>{escape(_curl(way, path, one))}</pre>")
+        html.append(f"<pre>{escape(_curl(way, path, one))}</pre>")
     body = one.get("requestBody", {}).get("content", {})
-    told += [f"<p>Send:</p>{_content(kind, media)}" for kind, media in body.items()]
+    html += [f"<p>Send:</p>{_content(kind, media)}" for kind, media in body.items()]
     for number, answer in one["responses"].items():
         for kind, media in answer.get("content", {}).items():
             which = "" if number == "200" else f", {_text(answer['description'])}"
-            told.append(f"<p>{number}{which}:</p>{_content(kind, media)}")
+            html.append(f"<p>{number}{which}:</p>{_content(kind, media)}")
     refused = [number for number, answer in one["responses"].items() if "$ref" in answer]
-    told.append(f"<p><small>refuses with {', '.join(refused)}</small></p>")
-    return f"<details>{''.join(told)}</details>\n"
+    html.append(f"<p><small>refuses with {', '.join(refused)}</small></p>")
+    return f"<details>{''.join(html)}</details>\n"
 
 
 def _needs_token(one: dict[str, Any]) -> bool:

@@ -50,8 +50,8 @@ def doctor(
 ) -> Computed:
     """The report of `rotator doctor` on this file, without secrets, because reading may be open to all."""
 
-    def shaped(told: dict[str, Any]) -> dict[str, Any]:
-        return {**redaction.value(told), "at_s": utc()}
+    def shaped(report: dict[str, Any]) -> dict[str, Any]:
+        return {**redaction.value(report), "at_s": utc()}
 
     words = of_the_program("doctor", "--json", "--config", str(path))
     return Computed(words, clock, named="the checks", kept_s=kept_s, shaped=shaped, good=WITH_FAULTS)

@@ -24,8 +24,8 @@ LONGEST_NAME = 200
 SHOWN_NAME = 40
 
 
-def route(entrance: Entrance, operating: Callable[[Paired], Operating], said: Callable[[str], str]) -> Route:
-    """`operating`: a paired browser's commands. `said`: a refusal in words for the page."""
+def route(entrance: Entrance, operating: Callable[[Paired], Operating], in_words: Callable[[str], str]) -> Route:
+    """`operating`: a paired browser's commands. `in_words`: a refusal in words for the page."""
 
     async def track(request: web.Request) -> web.StreamResponse:
         # Before the first byte is read: a stranger's table must not take memory.
@@ -42,7 +42,7 @@ def route(entrance: Entrance, operating: Callable[[Paired], Operating], said: Ca
         except TableError as mistake:
             return error(400, str(mistake))
         refused = operating(who).program(table)
-        return error(409, said(refused)) if refused else web.json_response({"ok": True})
+        return error(409, in_words(refused)) if refused else web.json_response({"ok": True})
 
     summary = "Track a timed table, t,az,el: t in seconds from now, or in UTC"
     name = {"name": in_address("of the file", "pass.csv")}
