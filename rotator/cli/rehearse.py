@@ -148,7 +148,7 @@ def _progress(flown: Pass) -> Iterator[Callable[[float], None]]:
     from rich.console import Console  # noqa: PLC0415
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn  # noqa: PLC0415
 
-    text = TextColumn("{task.description} {task.completed:4.0f} of {task.total:.0f} s")
+    text = TextColumn("{task.description} {task.completed:4.0f} of {task.total:.0f} s", markup=False)
     with Progress(text, BarColumn(), TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(flown.name, total=flown.end_s)
         yield lambda t_s: bar.update(task, completed=t_s)

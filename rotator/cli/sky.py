@@ -14,6 +14,7 @@ from pathlib import Path
 import click
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.cli import sky_plan
@@ -215,7 +216,8 @@ def _table(found: Sequence[Pass], errors_deg: Sequence[float]) -> None:
     for column in shown:
         table.add_column(HEADINGS[column], justify="right", no_wrap=True)
     for each, row in zip(found, rows, strict=True):
-        table.add_row(each.name, *(row[column] for column in shown))
+        # A name may come from the network, and rich takes what stands in square brackets for a style.
+        table.add_row(Text(each.name), *(row[column] for column in shown))
     console.print(table)
 
 

@@ -12,6 +12,7 @@ from itertools import groupby
 import click
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from rotator.assembly.tracking import build_antenna, build_priorities, wanted_often
 from rotator.cli.utc import clock_time, day, iso, local_time
@@ -109,7 +110,9 @@ def show(plan: Sequence[PlannedPass], errors_deg: Sequence[float], from_s: float
     for date, passes in by_day:
         table.add_row(f"[bold]{date}")
         for begin_s, each, error_deg in passes:
-            table.add_row(*_row(each, begin_s, error_deg), style="" if each.flight else "dim")
+            # Names may come from the network, and rich takes what stands in square brackets for a style.
+            cells = map(Text, _row(each, begin_s, error_deg))
+            table.add_row(*cells, style="" if each.flight else "dim")
     console.print(table)
 
 

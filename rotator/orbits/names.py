@@ -32,6 +32,8 @@ OSCARS = {
 }
 """By catalogue number: names of radio amateurs that public lists of elements leave out, now or at times."""
 _PARENTHESES = re.compile(r"\(([^)]*)\)")
+_CONDITION = re.compile(r"\s*\[[^\]]*\]")
+"""`NOAA 15 [B]`: some lists add whether it works, is a reserve, or is silent."""
 _TOGETHER = re.compile(r"\s+&\s+")
 _LEADING_ZERO = re.compile(r"(?<![0-9])0(?=[0-9])")
 
@@ -51,8 +53,9 @@ def spoken(elements: Elements) -> set[str]:
 
     `OSCAR 7 (AO-7)`: whole, or one of the two. `RS-44 & BREEZE-KM R/B`: whole, or one of the two that fly together.
     """
-    bare = _PARENTHESES.sub("", elements.name)
-    names = {elements.name, bare, *_PARENTHESES.findall(elements.name), *_TOGETHER.split(bare)}
+    listed = _CONDITION.sub("", elements.name)
+    bare = _PARENTHESES.sub("", listed)
+    names = {elements.name, listed, bare, *_PARENTHESES.findall(elements.name), *_TOGETHER.split(bare)}
     names.add(OSCARS.get(elements.catalogue_number, ""))
     numbers = {str(elements.catalogue_number), plain(tle.alpha5(elements.catalogue_number))}
     return ({plain(name) for name in names} | numbers) - {""}

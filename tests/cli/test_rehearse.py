@@ -73,10 +73,14 @@ def test_without_a_pass_it_lists_those_that_are_there(rotator_here: Rotator) -> 
     assert rows[-1].startswith("Your own is a file. The first line is t,az,el; ")
 
 
-def test_a_terminal_sees_how_far_it_is_and_the_result_stays(start_in_terminal: Rotator, flown: Path) -> None:
-    flying = start_in_terminal("rehearse", flown)
-    flying.until(r"south +\d+ of 60 s")
-    flying.until(r"south: the box was off by .* s of 60 s")
+@pytest.mark.parametrize("name", ["south", "[b]"])
+def test_a_terminal_sees_how_far_it_is_and_the_result_stays(
+    start_in_terminal: Rotator, flown: Path, name: str
+) -> None:
+    """Whatever the pass is called: square brackets are no style."""
+    flying = start_in_terminal("rehearse", flown.rename(flown.with_stem(name)))
+    flying.until(rf"{re.escape(name)} +\d+ of 60 s")
+    flying.until(rf"{re.escape(name)}: the box was off by .* s of 60 s")
     assert flying.ends() == 0
 
 

@@ -261,3 +261,15 @@ def test_long_names_are_shortened_and_no_moment_nor_angle_is(
     form = re.compile(rf"\S.*  \d\d Mar \d\d:\d\d:\d\d{here} +\d+ min +\d+° +\d+°{to}( +[\d.]+°)? *")
     assert len([row for row in rows if form.fullmatch(row)]) == len(rows)
     assert (columns < 100) == any("…" in row for row in rows)
+
+
+@pytest.mark.parametrize("name", ["SAT [/red]", "[bold]SAT", "SAT [link=x]y[/link]", "SAT %s {0} [B]", "<b>&amp;"])
+def test_a_name_is_printed_as_it_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    monkeypatch.setenv("COLUMNS", "160")
+    file = tmp_path / "named.tle"
+    file.write_text(skyfield_oracle.TLE.read_text(encoding="utf-8").replace("ISS\n", f"{name}\n"), encoding="utf-8")
+    follows = "".join(f'[[sky.follow]]\nname = "{each}"\n' for each in ("25544", "27607", "44909"))
+    for command in ("passes", "plan"):
+        result = told(tmp_path, command, "--from", EVENING, elements=file, more=follows)
+        assert result.exit_code == 0, said_by(result)
+        assert name[:11] in result.stdout

@@ -13,6 +13,8 @@ from tests.orbits.test_omm import MESSAGE
 
 AS_LISTED = {
     7530: "OSCAR 7 (AO-7)",
+    25338: "NOAA 15 [B]",
+    25544: "ISS (ZARYA) [+]",
     39444: "FUNCUBE-1 (AO-73)",
     40908: "LILACSAT-2",
     41847: "CAS-2T & KS-1Q",
@@ -40,6 +42,8 @@ def known(folder: Path, names: dict[int, str]) -> Catalogue:
         *((said, 44909) for said in ("RS-44", "rs44", "BREEZE-KM R/B", "RS-44 & BREEZE-KM R/B")),
         *((said, 43017) for said in ("AO 91", "ao-91", "RADFXSAT", "fox-1b")),
         *((said, 44881) for said in ("Tianyan 1", "TIANYAN-01", "TO-108")),
+        *((said, 25338) for said in ("noaa15", "NOAA-15", "NOAA 15 [B]")),
+        *((said, 25544) for said in ("iss", "zarya", "ISS (ZARYA)", "ISS (ZARYA) [+]")),
         ("KS-1Q", 41847),
         ("QO-100", 43700),
         ("io117", 53106),
