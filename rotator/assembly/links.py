@@ -63,12 +63,12 @@ def build_links(
 ) -> list[RunningLink]:
     """The links, each with a name of its own, because the name identifies a source: the second gs232b is gs232b-2."""
     built: list[RunningLink] = []
-    given = {link.name for link in links}
+    configured = {link.name for link in links}
     taken: set[str] = set()
     for link in links:
         plain = link.name or link.protocol
         names = (plain if number == 1 else f"{plain}-{number}" for number in itertools.count(1))
-        name = next(name for name in names if name not in taken and (name == link.name or name not in given))
+        name = next(name for name in names if name not in taken and (name == link.name or name not in configured))
         taken.add(name)
         wire = Wire(name, link.protocol, link.where)
         tap.link(wire, link.model_dump(exclude_unset=True))

@@ -98,8 +98,8 @@ def _read(note: Path, owner: int | None) -> Announced | None:
         # Another user may have put a link or a pipe there: it is not followed, and not waited for.
         file = os.open(note, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
         with open(file, "rb") as opened:
-            what = os.fstat(file)
-            if not stat.S_ISREG(what.st_mode) or owner not in (None, what.st_uid):
+            file_stat = os.fstat(file)
+            if not stat.S_ISREG(file_stat.st_mode) or owner not in (None, file_stat.st_uid):
                 return None
             monitor, folder, config = opened.read(LONGEST).decode("utf-8").splitlines()
         return Announced(Path(monitor), Path(folder), Path(config) if config else None)

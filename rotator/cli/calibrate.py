@@ -45,12 +45,12 @@ from rotator.store.whole import write_whole
 from rotator.views.residual_svg import residual_svg
 
 
-def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None, *, plain: bool) -> int:
-    """`what`: an axis, `north`, or None for both axes. The exit code: 0 when everything has been set up."""
+def calibrate_axes(path: Path | None, faults: tuple[str, ...], task: str | None, *, plain: bool) -> int:
+    """`task`: an axis, `north`, or None for both axes. The exit code: 0 when everything has been set up."""
     config = load(path)
     _refuse_beside_running_box(config, path)
     _refuse_stopped(config, path)
-    tasks = [axis.value for axis in Axis] if what is None else [what]
+    tasks = [axis.value for axis in Axis] if task is None else [task]
     return asyncio.run(_run(config, path, faults, tasks, plain=plain))
 
 

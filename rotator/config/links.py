@@ -94,16 +94,16 @@ class Link(Table):
     @model_validator(mode="after")
     def _one_place(self) -> Link:
         own = next((place for place, protocols in _PLACES.items() if self.protocol in protocols), None)
-        given = [place for place in (*_MANY_PROTOCOLS_PLACES, *_PLACES) if getattr(self, place) is not None]
-        for place in given:
+        places = [place for place in (*_MANY_PROTOCOLS_PLACES, *_PLACES) if getattr(self, place) is not None]
+        for place in places:
             if place != own and place in _PLACES:
                 right = own or "exactly one of pty, serial, tcp"
                 raise ValueError(f"{place} is for {', '.join(_PLACES[place])} only; {self.protocol} must have {right}")
-        if own and given != [own]:
+        if own and places != [own]:
             raise ValueError(f"{self.protocol} must have {own}, and none of pty, serial, tcp")
-        if self.protocol in _TCP_ONLY and given != ["tcp"]:
+        if self.protocol in _TCP_ONLY and places != ["tcp"]:
             raise ValueError(f"{self.protocol} must have tcp, and no other place")
-        if len(given) != 1:
+        if len(places) != 1:
             raise ValueError("must have exactly one of pty, serial, tcp")
         return self
 

@@ -90,8 +90,8 @@ def _unreadable(path: Path, fault: OSError) -> str:
             return f"there is no such file: {meant}{_MAKES.format(path)}"
         case IsADirectoryError():
             return f"is a folder: name the file in it, such as {path / 'rotator.toml'}"
-        case NoPlainFileError(strerror=str(what)):
-            return what
+        case NoPlainFileError(strerror=str(reason)):
+            return reason
         case PermissionError():
             return "you may not read it: put sudo before the command, or let its owner give you the right (chmod +r)"
         case _:

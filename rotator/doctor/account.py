@@ -23,8 +23,8 @@ def groups(machine: Machine, config: Config) -> Iterator[Finding]:
         return
     unit = machine.unit
     if unit is not None:
-        given = {name for line in re.findall(r"(?m)^SupplementaryGroups=(.*)$", unit) for name in line.split()}
-        yield _membership(machine, SERVICE_USER, needed - given)
+        granted = {name for line in re.findall(r"(?m)^SupplementaryGroups=(.*)$", unit) for name in line.split()}
+        yield _membership(machine, SERVICE_USER, needed - granted)
     if machine.user == "root":
         if unit is None:
             yield fine("root needs none")

@@ -25,25 +25,25 @@ NEAR_DEG, NEAR_TILT_DEG, NEAR_REV_PER_DAY = 5.0, 0.05, 0.01
 
 def one_of_each(satellites: Iterable[Satellite]) -> list[Satellite]:
     """Without those that fly with another one that has a lower catalogue number. The order stays."""
-    given = list(satellites)
-    if not given:
-        return given
+    candidates = list(satellites)
+    if not candidates:
+        return candidates
     # The moment of most of them: one wrong epoch does not move it.
-    at_s = median_low(each.elements.epoch_utc_s for each in given)
-    around = sorted(given, key=lambda each: _on_its_orbit_deg(each, at_s))
+    at_s = median_low(each.elements.epoch_utc_s for each in candidates)
+    around = sorted(candidates, key=lambda each: _on_its_orbit_deg(each, at_s))
     # The first ones again at the end: an orbit is a circle.
     angles_deg = [_on_its_orbit_deg(each, at_s) for each in around]
     wrapped = [*zip(angles_deg, around, strict=True)]
     wrapped += [(deg + 360.0, each) for deg, each in wrapped if deg < NEAR_DEG]
     left_out: set[int] = set()
-    for index, (deg, one) in enumerate(wrapped[: len(given)]):
+    for index, (deg, one) in enumerate(wrapped[: len(candidates)]):
         for other_deg, other in islice(wrapped, index + 1, None):
             # Of a crowd on one orbit the first leaves out all others, and those are not compared among themselves.
             if other_deg - deg > NEAR_DEG or _number(one) in left_out:
                 break
             if _number(other) not in left_out and _may_be_one(one, other) and _together(one, other, at_s):
                 left_out.add(max(_number(one), _number(other)))
-    return [each for each in given if _number(each) not in left_out]
+    return [each for each in candidates if _number(each) not in left_out]
 
 
 def _number(satellite: Satellite) -> int:

@@ -72,8 +72,8 @@ def parse_hand(words: list[str]) -> Hand:
             raise ValueError(f"write it like this: panel {OPERANDS}")
 
 
-def _number(text: str, most: float, what: str) -> float:
+def _number(text: str, most: float, quantity: str) -> float:
     value = float(text.replace(",", ".")) if text and _NUMBER.fullmatch(text) else -1.0
     if not 0.0 <= value <= most:
-        raise ValueError(f"{text[:20]!a} is no {what}")
+        raise ValueError(f"{text[:20]!a} is no {quantity}")
     return value

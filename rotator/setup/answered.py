@@ -39,9 +39,9 @@ def asked(answers: Mapping[str, object], machine: Machine) -> list[Asked]:
     taken: dict[str, str] = {}
     found: list[Asked] = []
     while question := next((each for each in questions(taken, machine) if each.name not in taken), None):
-        one = _asked(question, answers.get(question.name))
-        found.append(one)
-        taken[question.name] = question.default if one.mistake else one.answer
+        question_asked = _asked(question, answers.get(question.name))
+        found.append(question_asked)
+        taken[question.name] = question.default if question_asked.mistake else question_asked.answer
     return found
 
 
@@ -71,12 +71,12 @@ def _kept(place: tuple[str, ...], value: Any) -> list[Change]:
     return [change for key, inner in value.items() for change in _kept((*place, key), inner)]
 
 
-def _asked(question: Question, given: object) -> Asked:
-    if not isinstance(given, str) or len(given) > LONGEST:
+def _asked(question: Question, answer: object) -> Asked:
+    if not isinstance(answer, str) or len(answer) > LONGEST:
         return Asked(question, question.default)
-    if any(choice.answer == given for choice in question.choices):
-        return Asked(question, given)
+    if any(choice.answer == answer for choice in question.choices):
+        return Asked(question, answer)
     try:
-        return Asked(replace(question, default=""), question.answer(given) if given.strip() else question.default)
+        return Asked(replace(question, default=""), question.answer(answer) if answer.strip() else question.default)
     except ValueError as reason:
-        return Asked(question, given, str(reason))
+        return Asked(question, answer, str(reason))

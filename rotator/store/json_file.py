@@ -48,26 +48,26 @@ def damage(fault: Exception) -> str:
     return str(fault) or type(fault).__name__
 
 
-def number(value: object, what: str, least: float, most: float) -> float:
+def number(value: object, name: str, least: float, most: float) -> float:
     """A number within bounds, from a file. Raises ValueError, with the value in a few characters."""
     # It is compared before it becomes a float: a whole number of 400 digits has no float. NaN is not within any bounds.
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
-        raise ValueError(f"{what} is {reprlib.repr(value)}; it must be a number from {least:g} to {most:g}")
+        raise ValueError(f"{name} is {reprlib.repr(value)}; it must be a number from {least:g} to {most:g}")
     return float(value)
 
 
 class JsonFile:
-    """`what`: the content in a few words, for the log.
+    """`description`: of the content, in a few words, for the log.
 
     `load` and `save` raise nothing: their failures go to the log.
     """
 
-    def __init__(self, path: Path, form: Form, what: str) -> None:
+    def __init__(self, path: Path, form: Form, description: str) -> None:
         self.path = path
         self.trouble = ""
         """The reason of the last failed write; empty after a good one."""
         self._form = form
-        self._what = what
+        self._description = description
         self._seen: tuple[int, ...] | None = None
         """The mark of the file as it was read or written last; None: there was none."""
         self._later = ""
@@ -124,7 +124,7 @@ class JsonFile:
             self._seen = self._mark()
         except OSError as fault:
             if str(fault) != self.trouble:
-                log.error("%s: %s cannot be kept: %s", self.path, self._what, fault)
+                log.error("%s: %s cannot be kept: %s", self.path, self._description, fault)
             self.trouble = str(fault)
             return False
         self.trouble = ""

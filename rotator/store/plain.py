@@ -17,8 +17,8 @@ MOST_BYTES = 4_000_000
 class NoPlainFileError(OSError):
     """This name is no file that can be read whole. `strerror` says what it is, for the user."""
 
-    def __init__(self, path: Path, what: str) -> None:
-        super().__init__(0, what, str(path))
+    def __init__(self, path: Path, reason: str) -> None:
+        super().__init__(0, reason, str(path))
 
 
 def read_plain(path: Path, most_bytes: int = MOST_BYTES) -> bytes:

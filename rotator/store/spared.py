@@ -22,9 +22,9 @@ class SparedFile:
     Failures go to the log, and nothing is raised.
     """
 
-    def __init__(self, path: Path, form: Form, what: str, memory: Path | None) -> None:
-        self._card = JsonFile(path, form, what)
-        self._memory = JsonFile(memory / path.name, form, what) if memory else None
+    def __init__(self, path: Path, form: Form, description: str, memory: Path | None) -> None:
+        self._card = JsonFile(path, form, description)
+        self._memory = JsonFile(memory / path.name, form, description) if memory else None
         self._lock = threading.Lock()
         """While the card is written, another thread may note something newer in memory."""
         self._noted: Mapping[str, object] = {}

@@ -15,8 +15,8 @@ from rotator.views.words import TURNS, WireView, degrees, notes
 
 def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
     """The version, and the address of each link."""
-    what = "a SIMULATED rotor" if hardware == "sim" else "the rotor on this Pi"
-    return [f"rotator {version}: {what}", *(f"  {wire.protocol:<11} {wire.where}  ({wire.state})" for wire in wires)]
+    rotor = "a SIMULATED rotor" if hardware == "sim" else "the rotor on this Pi"
+    return [f"rotator {version}: {rotor}", *(f"  {wire.protocol:<11} {wire.where}  ({wire.state})" for wire in wires)]
 
 
 def line(status: Status) -> str:

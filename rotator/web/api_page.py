@@ -47,43 +47,43 @@ def api_page(described: dict[str, Any]) -> str:
     )
 
 
-def _request(way: str, path: str, one: dict[str, Any]) -> str:
+def _request(way: str, path: str, operation: dict[str, Any]) -> str:
     """One request, to unfold."""
-    needs = "needs a token" if _needs_token(one) else ""
-    html = [f"<summary><b>{way} {path}</b> {_text(one['summary'])} <small>{needs}</small></summary>"]
-    for each in one.get("parameters", ()):
+    needs = "needs a token" if _needs_token(operation) else ""
+    html = [f"<summary><b>{way} {path}</b> {_text(operation['summary'])} <small>{needs}</small></summary>"]
+    for each in operation.get("parameters", ()):
         name = f"?{each['name']}=" if each["in"] == "query" else f"{each['name']}:"
         html.append(f"<p><code>{name}</code> {_text(each['description'])}</p>")
-    if "description" in one:
-        html.append("".join(_paragraph(part) for part in one["description"].strip().split("\n\n")))
+    if "description" in operation:
+        html.append("".join(_paragraph(part) for part in operation["description"].strip().split("\n\n")))
     else:
-        html.append(f"<pre>{escape(_curl(way, path, one))}</pre>")
-    body = one.get("requestBody", {}).get("content", {})
+        html.append(f"<pre>{escape(_curl(way, path, operation))}</pre>")
+    body = operation.get("requestBody", {}).get("content", {})
     html += [f"<p>Send:</p>{_content(kind, media)}" for kind, media in body.items()]
-    for number, answer in one["responses"].items():
+    for number, answer in operation["responses"].items():
         for kind, media in answer.get("content", {}).items():
             which = "" if number == "200" else f", {_text(answer['description'])}"
             html.append(f"<p>{number}{which}:</p>{_content(kind, media)}")
-    refused = [number for number, answer in one["responses"].items() if "$ref" in answer]
+    refused = [number for number, answer in operation["responses"].items() if "$ref" in answer]
     html.append(f"<p><small>refuses with {', '.join(refused)}</small></p>")
     return f"<details>{''.join(html)}</details>\n"
 
 
-def _needs_token(one: dict[str, Any]) -> bool:
-    return bool(one["security"]) and {} not in one["security"]
+def _needs_token(operation: dict[str, Any]) -> bool:
+    return bool(operation["security"]) and {} not in operation["security"]
 
 
-def _curl(way: str, path: str, one: dict[str, Any]) -> str:
-    words = ["curl", *(["-X POST"] if way == "POST" and "requestBody" not in one else [])]
-    if _needs_token(one):
+def _curl(way: str, path: str, operation: dict[str, Any]) -> str:
+    words = ["curl", *(["-X POST"] if way == "POST" and "requestBody" not in operation else [])]
+    if _needs_token(operation):
         words.append('-H "Authorization: Bearer $TOKEN"')
-    for kind, media in one.get("requestBody", {}).get("content", {}).items():
+    for kind, media in operation.get("requestBody", {}).get("content", {}).items():
         if kind == JSON:
             example = next(_forms(media["schema"]))["examples"][0]
             words.append(f"-d {shlex.quote(json.dumps(example, ensure_ascii=False))}")
         else:
             words.append("--data-binary @FILE")
-    named = [each["name"] for each in one.get("parameters", ()) if each["in"] == "query"]
+    named = [each["name"] for each in operation.get("parameters", ()) if each["in"] == "query"]
     asked = "&".join(f"{name}={name.upper()}" for name in named)
     words.append(f'"$BOX{path}{"?" if asked else ""}{asked}"')
     return " ".join(words)

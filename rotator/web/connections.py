@@ -65,9 +65,9 @@ class Connections:
 
     def look(self) -> None:
         now_s = self._clock()
-        for one in list(self._open.values()):
-            if not one.live and now_s - one.since_s > (ANSWER_S if one.asks else SILENT_S):
-                self._drop(one)
+        for connection in list(self._open.values()):
+            if not connection.live and now_s - connection.since_s > (ANSWER_S if connection.asks else SILENT_S):
+                self._drop(connection)
 
     def admit(self, transport: asyncio.Transport) -> bool:
         """Take a new connection. If all places are taken, another one is closed."""
@@ -89,10 +89,10 @@ class Connections:
         Otherwise many machines with one connection each would push out a person with two.
         """
         young_s = self._clock() - YOUNG_S
-        still = [one for one in self._open.values() if not one.live] or list(self._open.values())
-        found = [one for one in still if one.opened_s <= young_s] or still
-        most, _ = Counter(one.host for one in found).most_common(1)[0]
-        return min((one for one in found if one.host == most), key=lambda one: (one.asks, one.since_s))
+        still = [connection for connection in self._open.values() if not connection.live] or list(self._open.values())
+        found = [connection for connection in still if connection.opened_s <= young_s] or still
+        most, _ = Counter(connection.host for connection in found).most_common(1)[0]
+        return min((each for each in found if each.host == most), key=lambda each: (each.asks, each.since_s))
 
     def begin(self, transport: asyncio.BaseTransport | None) -> None:
         """A request has come."""
@@ -104,23 +104,23 @@ class Connections:
 
     def live(self, transport: asyncio.BaseTransport | None) -> None:
         """It has become a WebSocket, which has its own rules."""
-        if transport is not None and (one := self._open.get(transport)) is not None:
-            one.live = True
+        if transport is not None and (connection := self._open.get(transport)) is not None:
+            connection.live = True
 
     def forget(self, transport: asyncio.BaseTransport) -> None:
         self._open.pop(transport, None)
 
     def drop_all(self) -> None:
-        for one in list(self._open.values()):
-            self._drop(one)
+        for connection in list(self._open.values()):
+            self._drop(connection)
 
     def _note(self, transport: asyncio.BaseTransport | None, *, asks: bool) -> None:
-        if transport is not None and (one := self._open.get(transport)) is not None:
-            one.asks, one.since_s = asks, self._clock()
+        if transport is not None and (connection := self._open.get(transport)) is not None:
+            connection.asks, connection.since_s = asks, self._clock()
 
-    def _drop(self, one: _Open) -> None:
-        self._open.pop(one.transport, None)
-        one.transport.abort()
+    def _drop(self, connection: _Open) -> None:
+        self._open.pop(connection.transport, None)
+        connection.transport.abort()
 
 
 class Connection(asyncio.Protocol):

@@ -90,15 +90,15 @@ class Pairings:
         """The owner of this token; None: not a valid token."""
         digest, now_s = _digest(token), self._utc()
         with self._lock:
-            one = self._paired.get(digest)
+            pairing = self._paired.get(digest)
             # A clock that was wrong for an hour must not end pairings.
-            if one is None or now_s - one.seen_s <= NOTED_S or not self._trusted():
-                return one
-            if one.seen_s and now_s - one.seen_s > LASTS_S:
-                self._drop(one)
+            if pairing is None or now_s - pairing.seen_s <= NOTED_S or not self._trusted():
+                return pairing
+            if pairing.seen_s and now_s - pairing.seen_s > LASTS_S:
+                self._drop(pairing)
                 return None
-            one = self._paired[digest] = replace(one, seen_s=now_s)
-            return one
+            pairing = self._paired[digest] = replace(pairing, seen_s=now_s)
+            return pairing
 
     def keep(self) -> None:
         """Write the file if something has changed. Waits for the disk, but does not block other calls meanwhile.
@@ -145,10 +145,10 @@ class Pairings:
         # No number is used twice: the orders of an old pairing must not belong to a new one.
         self._highest += 1
         seen_s = now_s if self._trusted() else 0.0
-        one = Paired(self._highest, self._own_name(_tidy(name)), _digest(token), now_s, seen_s)
-        self._paired[one.digest] = one
-        log.info("page: %s is paired", one.name)
-        return token, one
+        pairing = Paired(self._highest, self._own_name(_tidy(name)), _digest(token), now_s, seen_s)
+        self._paired[pairing.digest] = pairing
+        log.info("page: %s is paired", pairing.name)
+        return token, pairing
 
     def _own_name(self, name: str) -> str:
         """The name, with a number if another pairing has the same name."""
@@ -156,10 +156,10 @@ class Pairings:
         names = (name, *(f"{name[: LONGEST_NAME - 3]} {number}" for number in range(2, MOST + 2)))
         return next(each for each in names if each not in taken)
 
-    def _drop(self, one: Paired) -> None:
-        del self._paired[one.digest]
-        log.info("page: %s is paired no more", one.name)
-        self.on_gone(one)
+    def _drop(self, pairing: Paired) -> None:
+        del self._paired[pairing.digest]
+        log.info("page: %s is paired no more", pairing.name)
+        self.on_gone(pairing)
 
 
 def _digest(token: str) -> str:

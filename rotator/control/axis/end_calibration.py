@@ -15,13 +15,13 @@ BEYOND_DEG = 1.0
 
 
 class EndCalibration:
-    """`given`: the calibration in the configuration; None: the axis has none yet."""
+    """`configured`: the calibration in the configuration; None: the axis has none yet."""
 
-    def __init__(self, limits: Range, missing: tuple[Missing, ...], given: Calibration | None) -> None:
+    def __init__(self, limits: Range, missing: tuple[Missing, ...], configured: Calibration | None) -> None:
         self.missing = missing
         """What the axis lacks before it may be aimed."""
         self._limits = limits
-        self._given = given
+        self._configured = configured
         self._first: tuple[bool, float] | None = None
         """The end that came first: whether it is the high one, and its reading."""
 
@@ -32,8 +32,8 @@ class EndCalibration:
         """
         if raw is None:
             raise ValueError("the sensor has no believable reading")
-        if self._given is not None:
-            self._refuse_beyond(self._given, raw)
+        if self._configured is not None:
+            self._refuse_beyond(self._configured, raw)
         if calibration is not None:
             return calibration.with_end(raw, high_end=high_end)
         if self._first is None or self._first[0] == high_end:
@@ -45,9 +45,9 @@ class EndCalibration:
         return found
 
     @staticmethod
-    def _refuse_beyond(given: Calibration, raw: float) -> None:
-        (_, low_deg), (_, high_deg) = given.points[0], given.points[-1]
-        angle_deg = given.degrees(raw)
+    def _refuse_beyond(configured: Calibration, raw: float) -> None:
+        (_, low_deg), (_, high_deg) = configured.points[0], configured.points[-1]
+        angle_deg = configured.degrees(raw)
         if not low_deg - BEYOND_DEG <= angle_deg <= high_deg + BEYOND_DEG:
             raise ValueError(
                 f"it stands at {angle_deg:.1f}°, outside of its calibrated {low_deg:g} to {high_deg:g}; "
