@@ -217,7 +217,12 @@ def planned_motors(config: Config) -> tuple[PlannedMotor, PlannedMotor]:
     """What a plan of a whole pass has to know of azimuth and elevation, as the file has it."""
     azimuth, elevation = (
         PlannedMotor(
-            table.speed_dps, table.coast_s, table.tolerance_deg, table.backlash_deg, switched=config.rotor.switched
+            table.speed_dps,
+            table.coast_s,
+            table.tolerance_deg,
+            table.backlash_deg,
+            switched=config.rotor.switched,
+            alone=config.rotor.switched and config.relays.one_at_a_time,
         )
         for table in (config.azimuth, config.elevation)
     )

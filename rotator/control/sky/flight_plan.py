@@ -12,7 +12,9 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from rotator.control.sky.known_path import KnownPath, Row, rows_around
+from rotator.control.sky.led import led
 from rotator.control.sky.mount import Mount, Range
+from rotator.control.sky.one_at_a_time import before_azimuth
 from rotator.control.sky.route import STEP_S, Speeds, Way
 from rotator.control.sky.steps import Trail, best_steps
 from rotator.control.sky.turn_timing import Change, change_of
@@ -37,6 +39,8 @@ class PlannedMotor:
     play_deg: float = 0.0
     switched: bool = True
     """By relays; else the motor goes to every angle by itself, and follows the path without steps."""
+    alone: bool = False
+    """It never runs together with the other motor: the supply of both is small."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,15 +75,12 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
         max(LEAST_WEIGHT, math.cos(math.radians(direction[1]))) ** 2 * weight
         for direction, weight in zip(directions, up, strict=True)
     ]
-    return FlightPlan(
-        route,
-        Fly(
-            name,
-            path.rows,
-            _axis_plan(Trail(begin_s, azimuths_deg, flat), azimuth, mount.azimuth, now_s),
-            _axis_plan(Trail(begin_s, elevations_deg, up), elevation, mount.elevation, now_s),
-        ),
-    )
+    azimuth_plan = _axis_plan(Trail(begin_s, azimuths_deg, flat), azimuth, mount.azimuth, now_s)
+    elevation_plan = _axis_plan(Trail(begin_s, elevations_deg, up), elevation, mount.elevation, now_s)
+    if azimuth.alone:
+        steps = before_azimuth(azimuth_plan.steps, elevation_plan.steps, speeds)
+        elevation_plan = replace(elevation_plan, steps=steps)
+    return FlightPlan(route, Fly(name, path.rows, azimuth_plan, elevation_plan))
 
 
 def plan_given_angles(
@@ -135,14 +136,15 @@ def _axis_angles(
     low_deg, high_deg = mount.azimuth.min_deg - azimuth.tolerance_deg, mount.azimuth.max_deg + azimuth.tolerance_deg
     azimuths_deg, elevations_deg = [], []
     for leg, begin, end in zip(legs, begins, [*begins[1:], len(directions)], strict=True):
-        way = leg.flown.way
+        way, kept_deg = leg.flown.way, []
         azimuth_deg = way.azimuth_deg
         for moment, direction in enumerate(directions[:end]):
             azimuth_deg, elevation_deg = mount.on_the_way(*direction, azimuth_deg, flipped=way.flipped)
             if moment < begin:
                 continue
-            azimuths_deg.append(min(max(azimuth_deg, low_deg), high_deg))
+            kept_deg.append(min(max(azimuth_deg, low_deg), high_deg))
             elevations_deg.append(mount.clear_deg(mount.azimuth.nearest(azimuth_deg), elevation_deg))
+        azimuths_deg += kept_deg if azimuth.switched else led(kept_deg, azimuth.speed_dps * PLAN_STEP_S)
     for change in changes:
         _lift(mount, directions, change, elevations_deg)
     return azimuths_deg, elevations_deg
