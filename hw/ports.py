@@ -124,7 +124,7 @@ class ContactInput(Protocol):
     """A contact whose changes the kernel records, without bounce, so that none is missed while the program is busy."""
 
     def closed(self) -> bool:
-        """Whether it is closed now. Raises HardwareError."""
+        """Whether the contact is closed now. Raises HardwareError."""
 
     def changes(self) -> list[ContactChange]:
         """The changes since the last call, in order of time. Never waits. Raises HardwareError."""

@@ -58,9 +58,9 @@ class ControlBox:
         self._way = 0
         """The direction in which the wiper leads: that of the last move, -1 or 1; 0 before the first one."""
         self._held = False
-        """It was held, and not ordered since."""
+        """The box was held, and not ordered since."""
         self._measured = False
-        """It was measured since its last order. Then no later measurement corrects a hold."""
+        """The box was measured since its last order. Then no later measurement corrects a hold."""
         self._step: int | None = None
         """The last step sent to the chip; None: the chip may be at any step."""
         self._now_s = now_s
@@ -134,7 +134,7 @@ class ControlBox:
         self.until_s, self.deaf = None, False
 
     def unfed(self) -> None:
-        """Its supply was cut."""
+        """The box's supply was cut."""
         self.end()
         self._obedience.forget()
 

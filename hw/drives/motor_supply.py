@@ -20,9 +20,9 @@ class MotorSupply:
     def __init__(self, lines: OutputLines, *, wired: bool) -> None:
         self.wired = wired
         self.barred = False
-        """It stays off, even if a motor is to run."""
+        """The supply stays off, even if a motor is to run."""
         self.until_s: float | None = None
-        """When it may be switched off; None: it is off."""
+        """When the supply may be switched off; None: it is off."""
         self.fed_until_s = NEVER_S
         """End of the present feed, in which it is on only to show a relay that did not open. It is a lease, as for a
         motor: it ends unless it is renewed."""
@@ -49,7 +49,7 @@ class MotorSupply:
         self.until_s = max(self.until_s or NEVER_S, self.fed_until_s)
 
     def lingered(self, now_s: float) -> bool:
-        """Whether it is on, and its time is over."""
+        """Whether the supply is on, and its time is over."""
         return self.until_s is not None and self.until_s <= now_s
 
     def off(self) -> None:
@@ -59,5 +59,5 @@ class MotorSupply:
         self.note_off()
 
     def note_off(self) -> None:
-        """Its line has been switched off in one step with others."""
+        """The supply's line has been switched off in one step with others."""
         self.until_s, self.fed_until_s = None, NEVER_S

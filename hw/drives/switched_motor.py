@@ -28,8 +28,8 @@ class SwitchedMotor:
         return self.on is not Direction.OFF
 
     def may_turn(self, direction: Direction, now_s: float, dead_time_s: float) -> bool:
-        """Whether it may start. A reversal at full speed breaks gears and burns contacts; the same direction may go on
-        at once."""
+        """Whether the motor may start. A reversal at full speed breaks gears and burns contacts; the same direction may
+        go on at once."""
         return self.last in (Direction.OFF, direction) or now_s >= self.stopped_s + dead_time_s
 
     def note_start(self, direction: Direction) -> None:

@@ -81,7 +81,7 @@ class CamCount:
 
     @property
     def quiet(self) -> bool:
-        """Whether it was driven for three periods without a pulse."""
+        """Whether the shaft was driven for three periods without a pulse."""
         return self._shaft.fed_deg > QUIET_PERIODS * self.cam.spacing_deg
 
     @property

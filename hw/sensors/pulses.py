@@ -166,7 +166,7 @@ class PulseCounter:
 
     @property
     def quiet(self) -> bool:
-        """Whether it was driven for three periods without a pulse."""
+        """Whether the shaft was driven for three periods without a pulse."""
         return self._count.quiet
 
     @staticmethod

@@ -197,7 +197,7 @@ def real_chips() -> Chips:
 
 
 def simulated_chips(config: Config) -> Chips:
-    """Those of a simulated station on which no program has run yet."""
+    """The chips of a simulated station on which no program has run yet."""
 
     def world() -> Any:
         since_s = 0.0

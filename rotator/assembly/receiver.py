@@ -18,7 +18,7 @@ from rotator.control.sky.angles import great_circle_deg
 def simulated_receiver(
     config: Config, world: SimRotor, clock: Callable[[], float], source: Callable[[], tuple[float, float]]
 ) -> SimReceiver:
-    """It hears by where the simulated boom really points. `source`: the azimuth and elevation of what it hears."""
+    """A receiver that hears by where the simulated boom points. `source`: azimuth and elevation of the signal."""
     boom = simulated_boom(config)
 
     def off_deg() -> float:
@@ -28,5 +28,5 @@ def simulated_receiver(
 
 
 def simulated_rigctld(receiver: SimReceiver) -> SimRigctld:
-    """It listens on a port of its own until it is closed."""
+    """A simulated rigctld; it listens on a port of its own until it is closed."""
     return SimRigctld(receiver.strength_db)

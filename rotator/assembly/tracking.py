@@ -77,7 +77,7 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
 
 
 def build_priorities(config: Config) -> Priorities:
-    """Those that a person has changed on the page."""
+    """The priorities that a person has changed on the page."""
     return Priorities(Path(config.state.path).with_name(FILE_NAME))
 
 

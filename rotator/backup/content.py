@@ -1,4 +1,4 @@
-"""What a backup of the box holds: its configuration and what it has learnt, in one file; and the check of it.
+"""The content of a backup of the box: its configuration and what it has learnt, in one file; and the check of it.
 
 Knows which files belong to a backup, and how each is checked. Does not know how a backup is put in place: `restore`
 does.

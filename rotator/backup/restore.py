@@ -83,7 +83,7 @@ def _put(path: Path, backup: Backup, write: Write) -> None:
 
 
 def _give_up(path: Path) -> None:
-    """It is not tried at each start."""
+    """Set aside a backup that could not be put in place, so that no later start tries it again."""
     for ending in (WAITING, UNDER_WAY):
         with suppress(FileNotFoundError):
             _beside(path, ending).replace(_beside(path, FAILED))

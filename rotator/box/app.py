@@ -43,7 +43,7 @@ class App:
         self.config = config
         self._anew = anew or Anew()
         self.is_ready = False
-        """It has started with all its links."""
+        """The box has started with all its links."""
         self.station = station or open_station(config)
         self._built = parts = build_parts(config, path, self.station, self._anew)
         self.mount, self.loop, self.links, self.console = parts.mount, parts.loop, parts.links, parts.console

@@ -22,7 +22,7 @@ MAX_LINE = 256
 
 class Receiver(Protocol):
     def latest(self) -> Strength | None:
-        """Its latest answer; None: it has not answered yet."""
+        """The latest answer; None: rigctld has not answered yet."""
 
     def start(self) -> None: ...
 

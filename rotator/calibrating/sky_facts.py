@@ -25,7 +25,7 @@ class SkyFacts:
     """With the model in force."""
     beam_deg: float
     points: tuple[SkyPoint, ...]
-    """Those of earlier times."""
+    """The measured points of earlier times."""
     shift: Offsets
 
     @property

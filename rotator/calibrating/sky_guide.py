@@ -42,7 +42,7 @@ class Sighting:
     moment: str
     """The time by the box's clock, as text."""
     finder: str = ""
-    """Where it seems to be along a simulated boom, which no eye can see; empty for a real one."""
+    """Where the target seems to be along a simulated boom, which no eye can see; empty for a real one."""
 
 
 class SkyGuide(SteeringGuide):

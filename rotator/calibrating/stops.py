@@ -33,7 +33,7 @@ UNREACHED = "`rotator stop` does not reach this calibration: another box has its
 
 
 class Stops:
-    """Those of one calibration: `start` it in an event loop, once the control loop runs. `end` may be called twice."""
+    """The stops of one calibration: `start` in an event loop, once the control loop runs. `end` may be called twice."""
 
     def __init__(self, config: Config, loop: ControlLoop, station: Station) -> None:
         mount, console, panel = build_mount(config), Source(CONSOLE, 1), Source(PANEL)

@@ -32,7 +32,7 @@ class Strength:
     asked_s: float | None = None
 
     def is_of(self, begin_s: float) -> bool:
-        """Whether it is a strength of a moment after this one."""
+        """Whether the strength is of a moment after `begin_s`."""
         return not self.problem and (self.at_s if self.asked_s is None else self.asked_s) >= begin_s
 
 

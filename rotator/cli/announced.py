@@ -34,7 +34,7 @@ class Home(NamedTuple):
 class Announced(NamedTuple):
     monitor: Path
     folder: Path
-    """Where it was started."""
+    """The folder in which the box was started."""
     config: Path | None
     """Its configuration file; None: the simulated rotor."""
 

@@ -14,7 +14,7 @@ from rotator.protocols.session import Box
 WORDS = ("park", "resume")
 """Words that need Enter."""
 STOP_WORD = "stop"
-"""It needs no Enter: its last letter stops."""
+"""This word needs no Enter: its last letter stops."""
 STOP, QUIT = " ", "q"
 STAYS = "a fault stays until repaired"
 AGAIN = "The antenna is on its way. q again to quit"

@@ -98,7 +98,7 @@ def _goes_on(box: RunningBox) -> str:
 
 
 def _planned(box: RunningBox) -> str:
-    """What goes on as soon as it is no longer planning. Raises CommandFailed."""
+    """The box's answer as soon as it is no longer planning. Raises CommandFailed."""
     give_up_s, planned = time.monotonic() + PATIENCE_S, False
     while time.monotonic() < give_up_s:
         (state,) = box.order("track")

@@ -34,7 +34,7 @@ _PLACES: dict[str, tuple[ProtocolName, ...]] = {
 }
 """Keys of a place that serve these protocols only. These protocols have no other place."""
 NEEDS_STATION: tuple[ProtocolName, ...] = ("lx200", "stellarium")
-"""These name places among the stars."""
+"""These protocols name places among the stars."""
 _TCP_ONLY: tuple[ProtocolName, ...] = ("stellarium", "pstrotatoraz")
 _MANY_PROTOCOLS_PLACES = ("pty", "serial", "tcp")
 _ONLY_ORDERS: tuple[ProtocolName, ...] = (FOLLOW, "macdoppler", "wsjtx")

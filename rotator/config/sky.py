@@ -91,7 +91,7 @@ class SkyTable(Table):
 
 
 def _is_address(text: str) -> bool:
-    """Whether it is a whole address of http or https, as a request can hold it."""
+    """Whether the text is a whole address of http or https, as a request can hold it."""
     try:
         parts = urlsplit(text)
         named = bool(parts.hostname) and (parts.port is None or parts.port > 0)

@@ -26,7 +26,7 @@ class Statement:
     """A heading, a key with its value, or a line that is neither."""
 
     line: int
-    """Its first line, from 1."""
+    """The statement's first line, from 1."""
     last: int
     keys: tuple[str, ...] = ()
     """The parts of its name; empty for what is neither heading nor key."""

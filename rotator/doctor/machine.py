@@ -55,7 +55,7 @@ class Machine:
     ask_box: Callable[[], dict[str, Any] | Silent | str | None] = lambda: None
     """The status of the running box, as an object; or why it cannot be asked; None: no box runs."""
     utc_s: Callable[[], float] = time.time
-    """Its clock."""
+    """The clock of this machine."""
 
     def at(self, path: str | Path) -> Path:
         """A file of this machine; a relative path starts in the working folder, as the program's does."""

@@ -31,7 +31,7 @@ class Trust(Enum):
     OPEN = "open"
     """The axis has been seen to stop when this relay opened, and the relay has not been closed since."""
     UNSEEN = "not seen yet"
-    """It was closed, or may have been. A window of readings will decide."""
+    """The relay was closed, or may have been. A window of readings will decide."""
     DOUBTED = "doubted"
     """The window is over without a result: the axis stands at a place where a motor with current might stand too."""
     WELDED = "found closed"

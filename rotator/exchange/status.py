@@ -37,7 +37,7 @@ class AxisStatus:
     """The distance from the target that counts as reached; None: no target."""
     drive: Direction = Direction.OFF
     moving: bool = False
-    """Whether it is driven or still coasts."""
+    """Whether the axis is driven or still coasts."""
     by_itself_dps: float = 0.0
     """The speed at which it turns by itself without a motor, clockwise or up positive; 0: it stands, or is driven."""
     starts: int | None = None
@@ -52,7 +52,7 @@ class AxisStatus:
     """The present calibration, (raw, degrees), for the configuration file."""
     fault: Fault | None = None
     homing: bool = False
-    """Whether it searches its end stop."""
+    """Whether the axis searches its end stop."""
     notices: tuple[Notice, ...] = ()
     """Remarks about this axis for a person. They stop nothing."""
     noise_deg: float = 0.1
@@ -84,14 +84,14 @@ class AxisStatus:
 
     @property
     def at_target(self) -> bool:
-        """Whether it stands within the tolerance of its target."""
+        """Whether the axis stands within the tolerance of its target."""
         if self.target_deg is None or self.tolerance_deg is None or self.angle_deg is None:
             return False
         off_deg = abs(self.angle_deg - self.target_deg)
         return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
 
     def at_end(self, direction: Direction) -> bool:
-        """Whether it surely stands where no jog turns it further in this direction."""
+        """Whether the axis surely stands where no jog turns it further in this direction."""
         if self.missing or self.angle_deg is None or not self.seen:
             return False
         end_deg = self.max_deg if direction > 0 else self.min_deg
@@ -118,9 +118,9 @@ class Flown:
 
     name: str
     begin_s: float
-    """When it rises; before `at_s`: it is up."""
+    """When the target rises; before `at_s`: it is up."""
     end_s: float
-    """When it sets; infinite: it does not."""
+    """When the target sets; infinite: it does not."""
     expected_error_deg: float = 0.0
     """The possible error of its computed direction, from the age of its elements and from the clock."""
     recognised: bool = False
@@ -128,7 +128,7 @@ class Flown:
     beyond_beam: bool = False
     """Whether the expected error is more than half of the antenna's beam."""
     table: bool = False
-    """Whether it is a person's table, which begins and ends, but does not rise or set."""
+    """Whether the target is a person's table, which begins and ends, but does not rise or set."""
 
     @property
     def error_text(self) -> str:
@@ -153,7 +153,7 @@ class Latch:
     by: str
     """The source of the stop."""
     storm: bool = False
-    """Whether it is a storm park: then the antenna may go to its park position only."""
+    """Whether the stop is a storm park: then the antenna may go to its park position only."""
 
 
 @dataclass(frozen=True, slots=True)

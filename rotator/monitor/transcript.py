@@ -69,7 +69,7 @@ class Peer:
 
     source: Source
     host: str
-    """Its address."""
+    """The machine's address."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,7 +28,7 @@ class Pass:
     aos_s: float | None
     los_s: float | None
     tca_s: float
-    """When it is highest: the closest approach of a satellite."""
+    """When the target is highest: the closest approach of a satellite."""
     aos: Sight | None
     los: Sight | None
     highest: Sight
@@ -106,7 +106,7 @@ def _last_down_s(height: Callable[[float], float], from_s: float) -> float | Non
 
 
 def _crossing_s(height: Callable[[float], float], down_s: float, up_s: float) -> float:
-    """When it passes the horizon between a moment below it and a moment above."""
+    """When the target passes the horizon between a moment below it and a moment above."""
     while abs(up_s - down_s) > EXACT_S:
         middle_s = (down_s + up_s) / 2
         if height(middle_s) > 0:

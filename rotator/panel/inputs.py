@@ -167,12 +167,12 @@ class Knob:
         """The place at the last seen turn, at `_turned_s`."""
         self._turned_s = math.inf
         self._turned = False
-        """Whether it was seen to turn since the last rest."""
+        """Whether the knob was seen to turn since the last rest."""
         self._spread = 0.0
         """The recent spread of its readings at rest."""
 
     def still(self, now_s: float) -> bool:
-        """Whether it was read, and not turned, for STILL_S."""
+        """Whether the knob was read, and not turned, for STILL_S."""
         return now_s - self._turned_s >= STILL_S - LAG_S - _ROUNDING and len(self._latest) >= LEAST_READINGS
 
     def see(self, now_s: float, reading: float | None) -> bool:

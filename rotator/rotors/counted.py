@@ -61,7 +61,7 @@ class CountedAxis:
         """Why the stored count is not trusted. The counter's own reason is in its `trouble`."""
         self._reported_s = 0.0
         self._moved = False
-        """Whether it has moved since its last angle at rest was reported."""
+        """Whether the axis has moved since its last angle at rest was reported."""
         self._reported_lost = False
         self._hanging: Hanging[int] = Hanging()
 
@@ -106,7 +106,7 @@ class CountedAxis:
 
     @property
     def coasts(self) -> bool:
-        """Whether it may still turn after its relays opened. Until now its count is right."""
+        """Whether the axis may still turn after its relays opened. Until now its count is right."""
         return self._moved and not self._doubt and not self._counter.trouble
 
     def start(self, close_relay: Callable[[], Direction]) -> Direction:

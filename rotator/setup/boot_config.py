@@ -32,7 +32,7 @@ class Setting:
         return f"line {self.number}, {self.key}={self.value}" + (f" under {section}" if section else "")
 
     def may_hold_on(self, pi: Pi | None) -> bool:
-        """Whether it may apply on this Pi. A condition that only the firmware can judge counts as true."""
+        """Whether the setting may apply on this Pi. A condition that only the firmware can judge counts as true."""
         models = [each for each in self.filters if each in MODEL_FILTERS]
         return "none" not in self.filters and (pi is None or all(each in pi.filters for each in models))
 

@@ -20,9 +20,9 @@ class Machine:
     ports: tuple[str, ...] = ()
     """Serial adapters that are plugged in now, by names that stay."""
     addresses: tuple[ipaddress.IPv4Interface, ...] = ()
-    """Its addresses in local networks."""
+    """The machine's addresses in local networks."""
     name: str = "rotator"
-    """Its name in the network."""
+    """The machine's name in the network."""
 
     @property
     def networks(self) -> tuple[str, ...]:

@@ -28,7 +28,7 @@ CARRIER_PORT = "the carrier board's USB device socket"
 @dataclass(frozen=True, slots=True)
 class Pi:
     model: str
-    """Its full name, with the revision."""
+    """The Pi's full name, with the revision."""
     filters: frozenset[str]
     """The sections of config.txt that apply to it."""
     socket: str | None

@@ -68,7 +68,7 @@ class Follower:
         self._rests_after = "after its start"
         self._follows_any = False
         self._asked_s = -math.inf
-        """When it was last looked whether there is a target, on the loop's clock."""
+        """The last look whether there is a target, on the loop's clock."""
         self.rest = ""
         """Why no pass is flown now, if no other display tells it; empty: one is, or there is no plan."""
         self._again_utc_s = 0.0

@@ -39,7 +39,7 @@ class Flight:
     wait_deg: Place
     """The place where it waits: azimuth names the turn."""
     over_the_top: bool
-    """Whether it begins over the top."""
+    """Whether the pass begins over the top."""
     lost_s: float
     """How long the antenna is more than 10° off: it unwinds, or waits at a limit."""
 

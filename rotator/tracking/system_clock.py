@@ -75,7 +75,7 @@ def _by_timedatectl() -> bool | None:
 
 
 def _by_kernel() -> tuple[bool, float]:
-    """Whether it is set, and its error in seconds. If the kernel does not answer: not set."""
+    """Whether the clock is set, and its error in seconds. If the kernel does not answer: not set."""
     asked = _Timex()
     try:
         state = int(ctypes.CDLL(None).adjtimex(ctypes.byref(asked)))

@@ -67,7 +67,7 @@ class Computed:
             await asyncio.gather(computing, return_exceptions=True)
 
     def forget(self) -> None:
-        """Its source has changed: compute it again at the next request."""
+        """The source of the answer has changed: compute the answer again at the next request."""
         self._until_s = 0.0
         if self._computing is not None:
             self._computing.cancel()

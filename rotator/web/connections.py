@@ -32,7 +32,7 @@ class _Open:
     since_s: float
     asks: bool = False
     live: bool = False
-    """It is a WebSocket that shows the antenna live, and has no time limit."""
+    """The connection is a WebSocket that shows the antenna live, and has no time limit."""
 
 
 def machine(address: str) -> str:
@@ -99,11 +99,11 @@ class Connections:
         self._note(transport, asks=True)
 
     def end(self, transport: asyncio.BaseTransport | None) -> None:
-        """Its answer is being sent."""
+        """The answer to the request is being sent."""
         self._note(transport, asks=False)
 
     def live(self, transport: asyncio.BaseTransport | None) -> None:
-        """It has become a WebSocket, which has its own rules."""
+        """The connection has become a WebSocket, which has its own rules."""
         if transport is not None and (connection := self._open.get(transport)) is not None:
             connection.live = True
 

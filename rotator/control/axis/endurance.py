@@ -21,7 +21,7 @@ class Endurance:
         self._at_s: float | None = None
         self._running = False
         self.resting = False
-        """It has run for too long, and must not be started now."""
+        """The motor has run for too long, and must not be started now."""
 
     def note(self, now_s: float, *, running: bool) -> None:
         """What the motor does from now on."""

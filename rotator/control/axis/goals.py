@@ -24,12 +24,12 @@ class JogGoal:
     waits_s: float = LONGEST_WAIT_S
     """How much longer a waiting relay may postpone the end of the jog."""
     held: bool = False
-    """Its sender holds a button, and renews it."""
+    """The sender holds a button, and renews the goal."""
     end_deg: float | None = None
-    """Where it comes to rest before a forbidden sector; None: no sector is near."""
+    """Where the axis comes to rest before a forbidden sector; None: no sector is near."""
 
     def put_off(self, by_s: float) -> JogGoal:
-        """Its relay waited for `by_s`."""
+        """The axis's relay waited for `by_s`."""
         if self.until_s is None or self.waits_s < by_s:
             return self
         return replace(self, until_s=self.until_s + by_s, waits_s=self.waits_s - by_s)

@@ -19,7 +19,7 @@ HELD_TURNING_SHARE = 0.25
 """An axis that is faster than this share of its motor's speed is turned by its motor."""
 TURNS_ERRORS = 4.0
 TURNED_DEG = 4.0
-"""It must also have turned this far since it had to hold. Two pots that disagree move it by less."""
+"""An axis must also have turned this far since it had to hold. Two pots that disagree move it by less."""
 ADVICE = "Check the wires of its digital pot and of the control box's own pot"
 NO_RELAY = "; fit a relay in the boxes' supply (digipot.enable): without it they also turn at power-on"
 
@@ -40,7 +40,7 @@ class HeldWatch:
         self._held_s: float | None = None
         """Since when it has to hold; None: it is sent somewhere."""
         self._held_deg: float | None = None
-        """Where it came to rest, or should have."""
+        """Where the axis came to rest, or should have."""
 
     def see(self, now_s: float, readings: Trend, angle_deg: float | None, *, holds: bool) -> Fault | None:
         """Look at it. `angle_deg`: where it is now; `holds`: it is sent nowhere."""

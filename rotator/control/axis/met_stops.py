@@ -26,7 +26,7 @@ class MetStops:
         self._axis = axis
         self._limits = limits
         self._stood: Mapping[Direction, float] = _by_way(before.stood_deg)
-        """Where it stood still last, by direction."""
+        """Where the axis stood still last, by direction."""
         self._stops: Mapping[Direction, float] = {}
         self.limits = limits
         """How far the axis may turn now."""

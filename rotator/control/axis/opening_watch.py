@@ -68,7 +68,7 @@ class OpeningWatch:
 
     @property
     def ran_on(self) -> bool:
-        """It went on at its speed after its relay was switched off."""
+        """The axis went on at its speed after its relay was switched off."""
         return self._run_on.ran_on
 
     @property

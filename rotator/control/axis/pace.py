@@ -34,9 +34,9 @@ class Pace:
         self._behind: Range | None = None
         """Where a modelled axis may be: at its model, or behind it, on either side where the model has turned back."""
         self._place_deg: float | None = None
-        """Where it was sent last, to rest there."""
+        """Where the axis was sent last, to rest there."""
         self._stops = False
-        """It had room to brake, so it will not overshoot."""
+        """The axis had room to brake, so it will not overshoot."""
 
     def see(self, at_s: float, angle_deg: float) -> None:
         """A new good reading."""
@@ -48,7 +48,7 @@ class Pace:
         self._readings.append((at_s, angle_deg))
 
     def sent(self, now_s: float, place_deg: float) -> None:
-        """It is sent to rest there from now on."""
+        """The axis is sent to rest at `place_deg` from now on."""
         if not self._readings:
             return
         if place_deg != self._place_deg:
@@ -59,7 +59,7 @@ class Pace:
         self._stops = self._stops or able
 
     def moves_on(self) -> None:
-        """Its target moves: it may go beyond the place to which it was sent last."""
+        """The target moves: the axis may go beyond the place to which it was sent last."""
         self._place_deg, self._stops = None, False
 
     def span(self, now_s: float) -> Range:

@@ -64,11 +64,11 @@ class ControlledAxis(Protocol):
 
     @property
     def homeable(self) -> bool:
-        """Whether it counts, and so has an end stop to find."""
+        """Whether the axis counts pulses, and so has an end stop to find."""
 
     @property
     def homing(self) -> bool:
-        """Whether it is on its way to its end stop."""
+        """Whether the axis is on its way to its end stop."""
 
     @property
     def waits(self) -> bool:
@@ -111,13 +111,13 @@ class ControlledAxis(Protocol):
         """What stopped the axis; None: it may be driven."""
 
     def calibrate_end(self, *, high_end: bool) -> None:
-        """It stands at an end of its range: take its reading for that end. Raises Refused."""
+        """The axis stands at an end of its range: take its reading for that end. Raises Refused."""
 
     def checked(self) -> None:
         """A person has looked at both relays: they are open. Raises Refused where there are none."""
 
     def decide(self, now_s: float) -> Decision:
-        """What the drive has to do from now on: what the goal asks for, if it is safe."""
+        """The order to the drive from now on: the one that the goal asks for, if it is safe."""
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
         """The angles that the axis may pass from now until it has come to rest, if this command is the last one.
@@ -134,10 +134,10 @@ class ControlledAxis(Protocol):
         """Possible error of the known angle."""
 
     def hold_back(self, now_s: float, why: str) -> None:
-        """Its latest command is not carried out, for this reason. This ends a jog and the way to an end stop."""
+        """The latest command is not carried out, for this reason. This ends a jog and the way to an end stop."""
 
     def shortened(self, now_s: float, command: Steer) -> None:
-        """This command replaces its latest one, which would lead too far. A jog ends there."""
+        """This command replaces the latest one, which would lead too far. A jog ends there."""
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """After the cycle: the direction in which its relays are really closed (OFF where there are none)."""

@@ -106,7 +106,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
             self._stray.struck()
 
     def _turning(self, now_s: float) -> Fault | None:
-        """What is wrong while it is to hold. A model would show nothing, and wind turns an axis that is let go."""
+        """The fault of an axis that turns while it must hold. A model shows none; wind turns an axis that is let go."""
         if not self._settings.own_motor or self._settings.source is not AngleSource.MEASURED:
             return None
         return self._held.see(now_s, self._readings, self._sensing.angle_deg, holds=self._sent is None)

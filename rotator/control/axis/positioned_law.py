@@ -33,7 +33,7 @@ class Sent:
     """The direction of the jog that has sent it; OFF: no jog has."""
 
     def place_deg(self, now_s: float) -> float:
-        """Where it should be by now."""
+        """Where the axis should be by now."""
         return self.steer.angle_deg + self.steer.rate_dps * (now_s - self.at_s)
 
 

@@ -33,7 +33,7 @@ class Condition:
     missed: int = 0
     """How many orders its controller has left without an answer up to now."""
     closed: bool = False
-    """Its contact is closed since the last of these changes."""
+    """The contact is closed since the last of these changes."""
     ends: frozenset[Direction] = frozenset()
     """The directions that a limit switch forbids."""
     ahead: frozenset[Direction] = frozenset()

@@ -13,7 +13,7 @@ from rotator.control.axis.trend import Slope
 RAN_ON_S, RAN_ON_SHARE = 0.45, 0.9
 """After this time a coasting axis has gone less than this share of the way of a powered motor."""
 RAN_ON_READINGS = 5
-"""It runs on if this many readings in a row show it."""
+"""An axis runs on if this many readings in a row show it."""
 COASTS_NOISES, COASTS_S = 5.0, 1.5
 """Two mean angles differ if they are 5 noises apart: each is the mean of three readings. No coast lasts longer."""
 LATE_OPEN_S, COASTS_SHARE = 0.25, 1.5
@@ -36,14 +36,14 @@ class RunOn:
         self.ran_on = False
         """The axis went on at its speed after its relay was switched off."""
         self.held_up = False
-        """It went on until something held it."""
+        """The axis went on until something held it."""
         self._going = 0
         """How many readings in a row have shown that it runs on."""
         self._lagged_deg: float | None = None
         """The distance coasted when it was clearly slower than a powered motor."""
 
     def slows(self, at_s: float, place_deg: float, ended: EndedRun, line: Slope, *, free: bool) -> bool:
-        """Whether it has been seen to slow down, as it is at `place_deg` now. `line`: how it turned when the run ended.
+        """Whether the axis, now at `place_deg`, has been seen to slow down. `line`: how it turned when the run ended.
 
         `free`: a powered motor could turn on from there.
         """
@@ -90,11 +90,11 @@ class RunOn:
         return gone_deg - self._lagged_deg > sure_deg
 
     def _goes_on(self, line: Slope, passed_s: float, gone_deg: float) -> bool:
-        """Whether it has gone about as far as a powered motor goes in that time."""
+        """Whether the axis has gone about as far as a powered motor goes in that time."""
         return gone_deg - 2.5 * self._seen.trend.noise_deg > RAN_ON_SHARE * abs(line.speed_dps) * passed_s
 
     def _went_far(self, ended: EndedRun, gone_deg: float) -> bool:
-        """Whether it has gone further than it coasts, since its relay was switched off."""
+        """Whether the axis has gone further than it coasts, since its relay was switched off."""
         lag_s = self._seen.motor.lag_s
         longest_s = max(LATE_OPEN_S + lag_s, COASTS_SHARE * lag_s)
         error_dps = ended.line.error_dps if ended.line else 0.0

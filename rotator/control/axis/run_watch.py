@@ -74,7 +74,7 @@ class RunWatch:
 
     @property
     def looks(self) -> bool:
-        """It has not been seen to stand yet, or it turns though its relays are off."""
+        """The axis has not been seen to stand yet, or turns though its relays are off."""
         return not self._contact.looked or self._contact.turns
 
     @property

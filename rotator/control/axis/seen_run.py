@@ -45,7 +45,7 @@ class EndedRun:
     line: Slope | None
     """How the axis turned when the run ended; None: it was not seen to turn."""
     angle_deg: float
-    """Where it was then."""
+    """Where the axis was then."""
 
 
 class SeenRun:

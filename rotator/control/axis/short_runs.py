@@ -54,7 +54,7 @@ class ShortRuns:
         self._axis = axis
         self._smoothed = Smoothed()
         self._stands_deg: float | None = None
-        """Where it was when it was last seen to move."""
+        """Where the axis was when it was last seen to move."""
         self._run: RelayState | None = None
         """The present run; None: no run counts now."""
         self._ended: _Ended | None = None

@@ -44,17 +44,17 @@ class RestPlace:
 
     def __init__(self) -> None:
         self.at_deg: float | None = None
-        """Where it stands; None: it has not come to rest yet, or it has been moved."""
+        """Where the axis stands; None: it has not come to rest yet, or it has been moved."""
         self.since_s: float | None = None
         """Since when it stands there."""
         self._readings: deque[float] = deque(maxlen=KEPT_READINGS)
         """The latest readings since all relays opened."""
         self._rest: Rest
-        """By those readings, when it was last found to stand."""
+        """By those readings, when the axis was last found to stand."""
         self._start: Rest | None = None
-        """Where it was before the first run that was not seen to turn it; None: the latest run was seen to."""
+        """Where the axis was before the first run that was not seen to turn it; None: the latest run was seen to."""
         self._at_start = False
-        """It has not been driven since it stood there."""
+        """The axis has not been driven since it stood at `_start`."""
 
     def driven(self) -> None:
         """A relay closes."""
@@ -63,7 +63,7 @@ class RestPlace:
         self.moved()
 
     def moved(self) -> None:
-        """It does not stand there any more."""
+        """The axis does not stand at its last place any more."""
         self.at_deg = self.since_s = None
 
     def turned(self) -> None:
@@ -78,7 +78,7 @@ class RestPlace:
         self._readings.append(angle_deg)
 
     def stand(self, at_s: float) -> float:
-        """It stands now. Returns how far its place reads from the last one: the drift of its sensor."""
+        """The axis stands now. Returns how far its place reads from the last one: the drift of its sensor."""
         if self.since_s is None:
             self.since_s = at_s
             while len(self._readings) > LANDED_READINGS:
@@ -126,7 +126,7 @@ class Obstacles:
         self._held_deg.clear()
 
     def turned_to(self, place_deg: float) -> None:
-        """It was seen to turn to this place: nothing held it where it has passed."""
+        """The axis was seen to turn to this place: nothing held it where it has passed."""
         kept = self._held_deg.items()
         self._held_deg = {way: held_deg for way, held_deg in kept if (place_deg - held_deg) * way <= HOLDS_DEG}
 
@@ -135,7 +135,7 @@ class Obstacles:
         self._held_deg = {way: held_deg + by_deg for way, held_deg in self._held_deg.items()}
 
     def left(self, place_deg: float, by_deg: float) -> None:
-        """It stands here, and has left each place that is further away than `by_deg`."""
+        """The axis stands here, and has left each place that is further away than `by_deg`."""
         kept = self._held_deg.items()
         self._held_deg = {way: held_deg for way, held_deg in kept if abs(place_deg - held_deg) <= by_deg}
 

@@ -57,11 +57,11 @@ class StrayWatch:
         self._sent_for_s = 0.0
         """For how long, in all, it was sent somewhere."""
         self._sent_s: float | None = None
-        """The moment of the last look at it while it was sent somewhere."""
+        """The moment of the last look at the axis while it was sent somewhere."""
         self._sent_deg = 0.0
-        """Where it was sent at that look."""
+        """Where the axis was sent at that look."""
         self._place_deg: float | None = None
-        """Where it was at that look."""
+        """Where the axis was at that look."""
         self._nearer_deg = 0.0
         """How far, in all, it has come nearer to where it was sent."""
         self._elsewhere_s = 0.0
@@ -72,7 +72,7 @@ class StrayWatch:
         self._vain = VainMoves()
         self._left = LeftBehind()
         self._away_s = 0.0
-        """When it was last on the way to its place, on the same clock."""
+        """When the axis was last on the way to its place, on the same clock."""
 
     @property
     def tries(self) -> int:

@@ -56,7 +56,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         """The scale of the latest reading; None: there was no reading yet."""
         self._blind = BLIND if settings.window.blind else None
         self._decided_s: float | None = None
-        """When it decided last. An order makes it decide again between two cycles."""
+        """When the axis decided last. An order makes it decide again between two cycles."""
 
     @property
     def speed_dps(self) -> float:

@@ -59,7 +59,7 @@ class LeftBehind:
         self.begin()
 
     def begin(self) -> None:
-        """It is sent to another place."""
+        """The axis is sent to another place."""
         self._stands_deg = math.inf
         self._low_deg, self._high_deg = math.inf, -math.inf
         self._since_s: float | None = None

@@ -11,11 +11,11 @@ from rotator.control.axis.smoothing import SETTLES_S, Smoothed
 from rotator.exchange.faults import Notice
 
 ENOUGH, ENOUGH_S = 3, 1.0
-"""It is pressed in vain after this many presses in a row, and this time in all, that did not move it."""
+"""An axis is pressed in vain after this many presses in a row, and this time in all, that did not move it."""
 LONG_S = 4.5
 """Or after this time in all: presses that follow each other without a pause look like one."""
 MOVED_DEG, MOVED_NOISES = 0.3, 4.0
-"""It has moved when it is further from where it stood than this angle, and than this many times the noise."""
+"""An axis has moved when it is further from where it stood than this angle, and than this many times the noise."""
 IN_VAIN = Notice(
     "presses did not move it: a program turns it again after a person has turned it, or after `resume`", "NOT TURNING"
 )
@@ -35,7 +35,7 @@ class VainPresses:
         """A person has looked."""
         self._count, self._pressed_s, self._present_s = 0, 0.0, 0.0
         self._stands_deg: float | None = None
-        """Where it stood when the first of these presses began."""
+        """Where the axis stood when the first of these presses began."""
         self._since_s: float | None = None
         """When the present press began; None: no relay is on."""
         self._ended_s: float | None = None
@@ -45,7 +45,7 @@ class VainPresses:
 
     @property
     def enough(self) -> bool:
-        """Whether it has been pressed in vain often enough, or for long enough."""
+        """Whether the axis has been pressed in vain often enough, or for long enough, for the note."""
         long = self._pressed_s + self._present_s >= LONG_S
         return long or (self._count >= ENOUGH and self._pressed_s >= ENOUGH_S)
 

@@ -105,7 +105,7 @@ class WeldWatch:
         return slope
 
     def _run_on(self) -> Fault | None:
-        """It ran on, and stands now: at a stop, where the motor may still have current."""
+        """The axis ran on, and stands now: at a stop, where the motor may still have current."""
         seen, opening, way = self._seen, self._opening, self._seen.relays.last
         if not opening.ran_on or way is Direction.OFF or self._trusts.of(way) is not Trust.DOUBTED:
             return None

@@ -20,7 +20,7 @@ class Program:
     """Which kind of link, in words; empty: any that the protocol has."""
     settings: str
     says: tuple[bytes, ...]
-    """What it is known to send, to the byte; the tests see that the box understands each."""
+    """The bytes that the program is known to send; the tests see that the box understands each."""
     known: str
     keys: tuple[tuple[str, int], ...] = ()
     """What else the link must have."""
