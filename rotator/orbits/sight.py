@@ -12,6 +12,9 @@ from typing import Protocol
 FULL_TURN_DEG = 360.0
 RATE_OVER_S = 1.0
 """Rates are the change over this time, half before and half after."""
+SHORT_S, LOOKS, MOST_OFF_S = 300.0, 24, 43_200.0
+"""Seconds on its path: within the first a target only goes further away; over more, so many looks find the furthest."""
+ANYWHERE_DEG = 180.0
 
 
 class NotThere(Exception):  # noqa: N818 - a sentence about a target
@@ -72,9 +75,18 @@ def expected_error_deg(target: Target, utc_s: float, clock_s: float = 0.0) -> fl
 
     `clock_s`: by how much the clock may be wrong. Raises NotThere.
     """
-    off_s = math.hypot(target.late_s(utc_s), clock_s)
+    off_s = min(math.hypot(target.late_s(utc_s), clock_s), MOST_OFF_S)
+    # With old elements it may be anywhere on its orbit: half a revolution late is further away than a whole one.
+    count = 1 if off_s < SHORT_S else LOOKS
     here = target.sight(utc_s)
-    return max(here.apart_deg(target.sight(utc_s - off_s)), here.apart_deg(target.sight(utc_s + off_s)))
+    try:
+        return max(
+            here.apart_deg(target.sight(utc_s + side * off_s * look / count))
+            for look in range(1, count + 1)
+            for side in (-1, 1)
+        )
+    except NotThere:  # it may have come down
+        return ANYWHERE_DEG
 
 
 def beyond_beam(error_deg: float, beam_deg: float) -> str:

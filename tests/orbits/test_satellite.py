@@ -82,6 +82,32 @@ def test_the_expected_error_grows_with_age_and_with_the_clocks_error() -> None:
     assert iss.late_s(epoch_s) < iss.late_s(epoch_s + 10 * DAY_S) < iss.late_s(epoch_s - 30 * DAY_S)
 
 
+@pytest.mark.parametrize("revolutions", [1.0, 2.0, 7.0, 30.0])
+def test_elements_that_are_whole_revolutions_wrong_are_no_good_ones(revolutions: float) -> None:
+    """A satellite that may be a revolution late may be half of one late, on the other side of the earth."""
+    iss = Satellite(FLYING["ISS"], PARIS)
+    rng = random.Random(7)
+    for _ in range(20):
+        utc_s = FLYING["ISS"].epoch_utc_s + rng.uniform(0, DAY_S)
+        here = iss.sight(utc_s)
+        half_deg = max(here.apart_deg(iss.sight(utc_s + side * iss.period_s / 2)) for side in (-1, 1))
+        assert expected_error_deg(iss, utc_s, revolutions * iss.period_s) > 0.8 * half_deg
+
+
+def test_a_satellite_that_may_have_come_down_may_be_anywhere() -> None:
+    falling = Satellite(replace(FLYING["ISS"], drag_per_earth_radius=0.05, mean_motion_dot=0.5), PARIS)
+    day = next(day for day in range(1, 300) if not _is_up(falling, day))
+    assert expected_error_deg(falling, falling.elements.epoch_utc_s + (day - 1) * DAY_S, 2 * DAY_S) == 180.0
+
+
+def _is_up(satellite: Satellite, day: int) -> bool:
+    try:
+        satellite.sight(satellite.elements.epoch_utc_s + day * DAY_S)
+    except NotThere:
+        return False
+    return True
+
+
 NUMBERS = st.floats() | st.floats(-1000, 1000)
 
 
