@@ -20,7 +20,7 @@ from rotator.store.fetches import FOLDER, file_of
 
 
 def build_site(station: StationTable) -> Site | None:
-    """None where the file names no place."""
+    """The site of the station; None where the file names no place."""
     longitude_deg, latitude_deg = station.longitude_deg, station.latitude_deg
     if station.locator is not None:
         longitude_deg, latitude_deg = from_locator(station.locator)
@@ -30,7 +30,7 @@ def build_site(station: StationTable) -> Site | None:
 
 
 def build_sky(station: StationTable) -> Sky | None:
-    """By the system's clock; None where the file names no place."""
+    """The sky over the station, by the system's clock; None where the file names no place."""
     site = build_site(station)
     return None if site is None else Sky(site, time.time)
 
@@ -47,7 +47,7 @@ def build_later_catalogue(config: Config, read: Read = read_file) -> Catalogue:
 
 
 def uploaded_folder(config: Config) -> Path:
-    """Where files are that a person has sent by the page."""
+    """The folder of the files that a person has sent by the page."""
     return Path(config.state.path).with_name(uploads.FOLDER)
 
 

@@ -126,7 +126,7 @@ def wanted_names(table: SkyTable, sky: KnownSky, priority: Callable[[str, float]
 
 
 def build_antenna(config: Config, stands_deg: Place | None = None) -> Antenna:
-    """As a plan sees it. `stands_deg` None: at the park position."""
+    """The antenna as a plan sees it. `stands_deg` None: at the park position."""
     mount = build_mount(config)
     azimuth, elevation = planned_motors(config)
     return Antenna(mount, azimuth, elevation, stands_deg or (mount.park_azimuth_deg, mount.park_elevation_deg))
@@ -176,5 +176,5 @@ class TrackedBox:
 
 
 def build_known_sky(config: Config) -> KnownSky:
-    """With its elements read, for what runs in simulated time."""
+    """The sky with its elements read, for programs in simulated time."""
     return KnownSky(build_site(config.station), build_catalogue(config))

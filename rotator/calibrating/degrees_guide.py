@@ -50,7 +50,7 @@ class DegreesGuide(AxisGuide):
     # --- the angle after power-on
 
     def _find_position(self) -> Steps:
-        """A controller behind a gear does not know its angle after power-on, and nothing moves before it does."""
+        """Ask for the angle: after power-on a controller behind a gear does not know it, and does not move before."""
         yield
         yield from self._await_axis()
         while position_unknown(self._axis):

@@ -148,7 +148,7 @@ class Commands(click.Group):
 
 
 def _print_section(ctx: click.Context, words: list[str]) -> None:
-    """Print it and end; returns where there is none, and nothing like it."""
+    """Print the section of the manual with this name, and end. Returns where no section has this or a similar name."""
     from rotator.cli import pages  # noqa: PLC0415 - only help needs them
 
     if section := pages.found(words):

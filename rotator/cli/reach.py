@@ -37,7 +37,8 @@ def monitors(path: Path | None) -> list[Path]:
 
 
 def quick_monitors(path: Path | None) -> list[Path]:
-    """The same without the model. Empty: the keys cannot be read, and no box runs that was started with this file."""
+    """The same places without the model of the configuration. Empty: the keys cannot be read, and no running box was
+    started with this file."""
     try:
         tables = tomllib.loads(_text(path))
         state, monitor = tables.get("state", {}).get("path", STATE), tables.get("monitor", {}).get("path")

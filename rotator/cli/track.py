@@ -120,7 +120,7 @@ def _stays(words: str) -> str:
 
 
 def _is_nothing(state: str) -> bool:
-    """Whether nothing is tracked, for no failure: a direction needs no plan."""
+    """Whether the box tracks nothing, though no request has failed: a direction needs no plan."""
     return state == "off" or state.startswith("rests: ")
 
 

@@ -57,9 +57,9 @@ class Tries:
     stood_deg: Places = (None, None)
     """The last angle at which the driven axis stood still."""
     stops_deg: Places = (None, None)
-    """The stops that it has met. Only a person lets it go there again."""
+    """The stops that the axis has met. Only a person lets it go there again."""
     pressed: bool = False
-    """Whether presses did not move it while it has no calibration."""
+    """Whether presses did not move the axis while it had no calibration."""
     driven: bool = False
     """Whether its latest run has no visible motion yet."""
 

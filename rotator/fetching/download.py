@@ -124,7 +124,7 @@ def _led(before: str, after: str) -> str:
 
 
 def _opener() -> OpenerDirector:
-    """For http and https alone: `urllib`'s own opener reads files, too."""
+    """An opener for http and https alone: `urllib`'s own opener reads files, too."""
     opener = OpenerDirector()
     for handler in (ProxyHandler(), HTTPHandler(), HTTPSHandler(), HTTPDefaultErrorHandler(), HTTPErrorProcessor()):
         opener.add_handler(handler)
@@ -199,7 +199,7 @@ def checked(content: bytes, utc_s: float) -> int:
 
 
 def no_answer(fault: object) -> str:
-    """For a person, in one line."""
+    """Why a server gave no answer, in one line for a person."""
     reason = getattr(fault, "strerror", None) or str(fault) or type(fault).__name__
     if isinstance(fault, TimeoutError):
         reason = f"it took longer than {ANSWER_S:g} s"

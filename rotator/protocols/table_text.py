@@ -19,7 +19,7 @@ COLUMNS = ("t", "az", "el")
 FORM = "The first line is t,az,el; each further line has seconds, azimuth, elevation, like 12.5,274.6,8.1"
 LONGEST_S = 86_400.0
 LEAST_S = 0.001
-"""Rows nearer in time would be a speed that no antenna has, and no computer divides by."""
+"""Seconds. Rows nearer in time ask for a speed that no antenna has, and two rows at one moment for none at all."""
 FARTHEST_DEG = 45.0
 """Between rows further apart on the sky the curve is a guess: over the zenith, or a jump from side to side."""
 SINCE_1970_S = 1e9

@@ -21,7 +21,7 @@ from rotator.tracking.next_flight import Now
 from rotator.tracking.ports import Box
 
 COMPUTING_S = 0.6
-"""From an order until the thread has looked at it, and has planned."""
+"""Seconds from an order until the listener's thread has looked at it, and has planned."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ class Overhearing:
             self._true = next(each for each in self._satellites if each.name == name)
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
-        """Where the satellite really was that was named; None: none was."""
+        """The true direction of the satellite that the displays have named; None: they have named none."""
         if self._true is None:
             return None
         seen = self._true.sight(self._utc() + now_s - self._clock())

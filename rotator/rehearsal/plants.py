@@ -61,10 +61,10 @@ class Plant(Protocol):
         """None: there are no relays."""
 
     def recognised(self) -> Named | None:
-        """The satellite that it has recognised in its orders."""
+        """The satellite that the box has recognised in its orders."""
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
-        """Where that satellite really was; None: it has recognised none."""
+        """Where that satellite really was; None: the box has recognised none."""
 
     def faults(self) -> tuple[str, ...]:
         """The faults that hold an axis now, each in a sentence."""
@@ -213,10 +213,10 @@ class ArduinoPlant:
         return self._station.relay_starts
 
     def recognised(self) -> None:
-        """It knows no satellites."""
+        """An Arduino knows no satellites."""
 
     def true_direction(self, now_s: float) -> None:
-        """It knows no satellites."""
+        """An Arduino knows no satellites."""
 
     def faults(self) -> tuple[str, ...]:
         return ()  # the sketch knows none

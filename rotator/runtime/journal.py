@@ -20,7 +20,7 @@ log = logging.getLogger(__name__)
 class Journal:
     def __init__(self, clock: Callable[[], float]) -> None:
         self._failures: dict[str, str] = {}
-        """Of the devices that fail now."""
+        """The failures of the devices that fail now."""
         self._noticed: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         self._movers = LogLimit(clock)
         self._orders = LogLimit(clock)

@@ -20,7 +20,7 @@ AGAIN_S = 10.0
 """Seconds of pause after a failed write before the same is tried again. Something new does not wait: the file has a
 second place, in memory."""
 LOOKS_S = 10.0
-"""So often the same is saved again, which writes nothing unless another program has changed the file."""
+"""Seconds after which the same content is saved again: it is written if another program has changed the file."""
 JOIN_S = 2.0
 
 

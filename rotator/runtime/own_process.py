@@ -78,12 +78,12 @@ class OwnProcess:
             raise self._failed(failure) from None
 
     def _failed(self, failure: Exception) -> RuntimeError:
-        """Ends what is left of the process."""
+        """End the rest of the process, and say why it failed."""
         self._end()
         return RuntimeError("the box ends" if self._closed else str(failure) or "its process has ended")
 
     def close(self) -> None:
-        """From any thread. The present job fails, and so does each later one."""
+        """End the process, from any thread. The present job fails, and so does each later one."""
         with self._lock:
             self._closed = True
             if self._process is not None:

@@ -70,7 +70,7 @@ class Follower:
         self._asked_s = -math.inf
         """The last look whether there is a target, on the loop's clock."""
         self.rest = ""
-        """Why no pass is flown now, if no other display tells it; empty: one is, or there is no plan."""
+        """Why no pass is flown now, if no other display tells it; empty: a pass is flown, or there is no plan."""
         self._again_utc_s = 0.0
         """When to plan next."""
         self._changed = False

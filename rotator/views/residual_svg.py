@@ -16,7 +16,7 @@ from rotator.views.sky_svg import SkySvg, document, dot, line, text
 WIDTH, HEIGHT = 820, 720
 SKY = SkySvg(430, 370, 300)
 LONGEST_PX = 90
-"""Of an arrow."""
+"""The length of the longest arrow."""
 SCALES_DEG = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0)
 
 

@@ -173,7 +173,7 @@ def _trouble(text: str, width: int) -> list[Row]:
 
 
 def _cut(text: str, width: int) -> Row:
-    """In one row, with a sign that it goes on."""
+    """The text in one row, with a sign that it goes on."""
     words = Text(text, style=ALARMS)
     words.truncate(width, overflow="ellipsis")
     return Row(words, _TROUBLE)

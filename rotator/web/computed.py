@@ -76,7 +76,7 @@ class Computed:
     async def newest(self) -> dict[str, Any]:
         """Wait until it is computed. Returns the same as `answer`."""
         while (answer := self.answer()) is None:
-            assert self._computing is not None, "what is not there is computed"
+            assert self._computing is not None, "an answer that is missing is being computed"
             await asyncio.wait([self._computing])
         return answer
 

@@ -50,7 +50,7 @@ def route(entrance: Entrance, operating: Callable[[Paired], Operating], in_words
 
 
 def _name(file: str) -> str:
-    """For displays: the file's name without its folder and its ending."""
+    """The table's name for displays: the file's name without its folder and its ending."""
     last = file.replace("\\", "/").rpartition("/")[2]
     stem = last.rpartition(".")[0] or last
     return "-".join(stem.split())[:SHOWN_NAME] or "table"

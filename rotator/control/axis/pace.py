@@ -63,7 +63,7 @@ class Pace:
         self._place_deg, self._stops = None, False
 
     def span(self, now_s: float) -> Range:
-        """Where the axis may be from now until it rests, if it is to stop now. There must have been a reading."""
+        """Where the axis may be from now until it rests, if it must stop now. Needs a reading."""
         span = self._braking_span(now_s)
         if not self._stops or self._modelled or self._place_deg is None:
             return span

@@ -98,7 +98,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         found = reported or unbelievable or self._turning(now_s) or self._straying(now_s)
         strays = found is not None and found.kind is FaultKind.NOT_FOLLOWING
         if found is not None and strays and self._settings.master:
-            # A control box that does not follow may not hear, and then no stop reaches it either.
+            # A control box that does not follow may be deaf: then a stop does not reach it either.
             found = unstoppable(found, master=True)
         # A move that was too short to show anything counts with the one that shows it.
         tries = int(self.driven) + (self._stray.tries if strays else 0)
@@ -140,7 +140,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         return Decision(steer)
 
     def _wish(self, now_s: float) -> Steer | None:
-        """Where the goal sends it; None: it is to hold. A fault ends the goal."""
+        """Where the goal sends the axis; None: the axis is to hold. A fault ends the goal."""
         if self.fault is not None:
             self._goal = None
         # A bad reading starts nothing. What moves may go on for a moment, until the next good one.
@@ -163,7 +163,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
                 raise AssertionError("it has no end stop to find")
 
     def _jog(self, now_s: float, angle_deg: float, jog: JogGoal, until_s: float) -> Steer | None:
-        """Where a jog sends it; None: the jog is over."""
+        """Where a jog sends the axis; None: the jog is over."""
         if jog.until_s is not None and now_s >= jog.until_s:
             return None
         if jog.end_deg is not None:
@@ -229,7 +229,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
 
 
 def _latch(settings: PositionedSettings) -> FaultLatch:
-    """With the fault of an earlier run of the program, where the motor was tried too often."""
+    """The latch of faults, with the fault of an earlier run of the program that tried the motor too often."""
     before = Fault(settings.tries.kind or FaultKind.NOT_FOLLOWING, settings.axis, "")
     if before.kind is FaultKind.NOT_FOLLOWING and settings.master:
         before = unstoppable(before, master=True)

@@ -84,7 +84,7 @@ class Sensing:
         return math.inf if self.believable else self.believed_s + RIDDEN_S
 
     def begin_anew(self, calibration: Calibration | None) -> None:
-        """From now on the same reading means another place."""
+        """The scale has changed: from now on the same reading means another place."""
         self.calibration = calibration
         self._sparks.begin_anew()
         self._last = None

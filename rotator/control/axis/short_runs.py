@@ -44,7 +44,7 @@ class _Ended:
     direction: Direction
     lasted_s: float
     off_s: float
-    """When its relay opened."""
+    """When the run's relay opened."""
 
 
 class ShortRuns:
@@ -78,7 +78,7 @@ class ShortRuns:
         self._stood_s = 0.0
         self._starts = 0
         self._driven_s = 0.0
-        """The starts since it was last seen to move, and the time of their runs, plus one way and minus the other."""
+        """Starts since the axis was last seen to move, and the time of their runs, plus one way and minus the other."""
         self._reached_deg: float | None = None
         """Where the last run has led; None: the readings cannot show it yet."""
         self._gained_deg = 0.0
