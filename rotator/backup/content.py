@@ -125,7 +125,7 @@ def _unpacked(data: bytes) -> dict[str, str]:
                     # The others ask for as much memory as the file says, and fail in ways of their own.
                     raise BackupError(f"this is no backup of a rotator: {name} is packed in another way")
                 with file.open(info) as part:
-                    # What it says of its size is not believed: a small zip can hold a very large file.
+                    # The size that a zip names is not believed: a small zip can hold a very large file.
                     content = part.read(LARGEST_PART + 1)
                 if len(content) > LARGEST_PART:
                     raise BackupError(

@@ -63,7 +63,7 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
         def run(app: App) -> None:
             with nullcontext() if runtime_folder(os.environ) else announced(_monitor(app.config), path):
                 asyncio.run(run_app(app, chosen, screen, None if plain else recent, anew))
-            # Those of the command line have begun, and a person has seen them.
+            # The faults of the command line have begun, and a person has seen them.
             chosen.clear()
 
         run(app)

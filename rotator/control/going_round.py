@@ -128,7 +128,7 @@ class GoingRound:
             return
         for axis in Axis:
             if axis not in wishes:
-                # It moves out of the way, and comes back.
+                # This axis moves out of the way, and comes back.
                 wishes[axis] = self._wishes[axis] = AimGoal(here.of(axis).middle_deg, PLACE_TOLERANCE_DEG)
         self._go(wishes, self._way(here, target), target)
 

@@ -50,7 +50,7 @@ def damage(fault: Exception) -> str:
 
 def number(value: object, name: str, least: float, most: float) -> float:
     """A number within bounds, from a file. Raises ValueError, with the value in a few characters."""
-    # It is compared before it becomes a float: a whole number of 400 digits has no float. NaN is not within any bounds.
+    # Compared before it becomes a float: a whole number of 400 digits has no float. NaN is not within any bounds.
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
         raise ValueError(f"{name} is {reprlib.repr(value)}; it must be a number from {least:g} to {most:g}")
     return float(value)

@@ -50,7 +50,7 @@ class LatchFile:
         latch = self._file.load(
             _parse, absent=None, damaged=DAMAGED, consequence="it may have kept a stop: nothing moves until resume"
         )
-        # What is in memory only would not outlive a power cut: the next `save` writes it to the card.
+        # A state in memory only would not outlive a power cut: the next `save` writes it to the card.
         self._kept = Kept.UNKNOWN if latch is DAMAGED or self._file.in_memory else _kind(latch)
         if latch is None or latch is DAMAGED:
             return latch

@@ -67,7 +67,7 @@ class RelaysFile:
         returned = within(patience_s, lambda: self.save(kept), "relays-first")
         if in_memory or (returned and not self.trouble):
             return kept
-        # It may have refused the run before this one too.
+        # The card may have refused the run before this one too.
         return {axis: after(each, proper=False) for axis, each in kept.items()}
 
     def load(self) -> dict[Axis, Trusts]:

@@ -175,7 +175,7 @@ class ContactWatch:
         if not lost:
             return self._blind_s <= BLIND_PERIODS * self._period_s
         measured = len(self._moments_s) == self._moments_s.maxlen
-        # It may have met its stop anywhere: the last change must be as recent as that of an axis that turns.
+        # The axis may have met its stop anywhere: the last change must be as recent as that of an axis that turns.
         return self._blind_s <= (self._moments_s[-1] - self._moments_s[0] if measured else self._period_s)
 
     @property

@@ -103,7 +103,7 @@ class Motion:
         if abs(stray_deg) > JUMP_DEG:
             self._strays.append((at_s, angle_deg))
             if len(self._strays) == JUMP_READINGS:
-                # It stays: the axis really is there (a hand on another switch, or a motor faster than was known).
+                # The readings stay there: so does the axis (a hand on another switch, or a motor faster than known).
                 self._correct_speed()
                 self.angle_deg = angle_deg
                 self._strays.clear()

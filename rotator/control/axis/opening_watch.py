@@ -91,7 +91,7 @@ class OpeningWatch:
         """Whether that relay has to wait, because the readings have not yet shown that its opposite is open."""
         if not self.looked or self._trusts.of(Direction(-direction)) is not Trust.OPEN:
             return True
-        # It is turning the other way, perhaps by the opposite relay: wait.
+        # The axis is turning the other way, perhaps by the opposite relay: wait.
         slope = self._seen.trend.slope(self._seen.trend.last_s - END_WINDOWS_S[1])
         powered_dps = POWERED_SHARE * self._run.motor_dps
         return slope is not None and -slope.speed_dps * direction - 2.0 * slope.error_dps > powered_dps
@@ -193,7 +193,7 @@ class OpeningWatch:
             return
         self._run.blind_s = 0.0
         if self._moved_from(left_deg):
-            # It has left what held it, or its readings had stood still.
+            # The axis has left what held it, or its readings had stood still.
             self._run.turned_s = -math.inf
             self._obstacles.left(self._place_deg, self._moved_deg)
 
@@ -242,7 +242,7 @@ class OpeningWatch:
         self._trusts.closed(way)
         against = Direction(-way)
         if self._trusts.of(against) is Trust.DOUBTED:
-            # It has been turned away from what may have held it.
+            # The axis has been turned away from what may have held it.
             self._trusts.look_again(against)
             self._run.blind_s, self._run.ended = 0.0, None
             self._obstacles.forget(against)

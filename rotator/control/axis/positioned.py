@@ -181,7 +181,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         span = self._pace.span(now_s)
         if not isinstance(command, Steer):
             return span
-        # It comes to rest at the place of its last command, moving on for as long as that holds.
+        # The axis comes to rest at the place of its last command, and moves on while that command holds.
         on_deg = abs(command.rate_dps) * (command.until_s - now_s) + self._pace.braking_deg(command.rate_dps)
         end_deg = command.angle_deg + math.copysign(on_deg, command.rate_dps)
         near_deg = self._settings.near_deg

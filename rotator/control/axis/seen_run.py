@@ -143,7 +143,7 @@ class SeenRun:
                 return None  # it stands, though the longer windows still contain its motion
             if abs(slope.speed_dps) < 3.5 * slope.error_dps:
                 continue
-            # It may have stopped within this window: then its end is slower than the whole.
+            # The axis may have stopped within this window: then the window's end is slower than the whole.
             latest = trend.slope(max(since_s, at_s - max(END_WINDOWS_S[0], window_s / 4.0)))
             if latest is None:
                 return None

@@ -155,7 +155,7 @@ class ShortRuns:
             measured = f"its motor ran {name} {self._backwards} times, and the angle went back each time"
             return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}°")
         if self._gained_deg >= moved_deg * math.sqrt(max(1, self._starts)):
-            # It turns each time, and something turns it back. The scatter of a sum grows as the root of its number.
+            # The axis turns each time, and is turned back. The scatter of a sum grows as the root of its number.
             self._runs = self._starts = self.tries = 0
             self._stood_s = self._driven_s = self._gained_deg = 0.0
             return None
