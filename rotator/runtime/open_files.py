@@ -20,7 +20,7 @@ from rotator.runtime.log_limit import LogLimit
 
 log = logging.getLogger(__name__)
 
-ENOUGH = 8192
+ENOUGH_FILES = 8192
 """Thirty links with all their clients, and the page. The usual limit, 1024, is enough for six."""
 NO_MORE = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 """The errors that asyncio itself meets by waiting for a second."""
@@ -29,7 +29,7 @@ NO_MORE = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 def allow_enough() -> None:
     """Raise the program's own limit, as far as the system lets it. Call it before a link opens."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    most = ENOUGH if hard == resource.RLIM_INFINITY else min(ENOUGH, hard)
+    most = ENOUGH_FILES if hard == resource.RLIM_INFINITY else min(ENOUGH_FILES, hard)
     if soft == resource.RLIM_INFINITY or soft >= most:
         return
     with suppress(OSError, ValueError):  # a service may be kept from it

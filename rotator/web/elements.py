@@ -43,7 +43,7 @@ _FETCH = object_of(
         "again_s": the("seconds until the next try", or_null(WHOLE)),
     }
 )
-_TOLD = object_of({"satellites": WHOLE, "files": list_of(_FILE), "faults": list_of(TEXT), "fetch": list_of(_FETCH)})
+_ELEMENTS = object_of({"satellites": WHOLE, "files": list_of(_FILE), "faults": list_of(TEXT), "fetch": list_of(_FETCH)})
 
 
 class ElementFiles:
@@ -109,7 +109,7 @@ class ElementFiles:
             {"name": in_address("of the file", "mine.txt")},
             body_of({"name": TEXT}, example={"name": "mine.txt"}),
         )
-        ages = "The files and addresses of elements, and how old these are", _TOLD
+        ages = "The files and addresses of elements, and how old these are", _ELEMENTS
         return (
             get("/api/elements", listed, ages),
             post("/api/elements", take, summary, ELEMENTS, answer=kept, most_body=MOST_BYTES, query=name),

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.runtime.open_files import ENOUGH, NO_MORE, allow_enough, say_it_once
+from rotator.runtime.open_files import ENOUGH_FILES, NO_MORE, allow_enough, say_it_once
 from tests.boxes import file_with_page, free_port, greets
 
 PATIENCE_S = 60.0
@@ -102,6 +102,6 @@ def test_it_allows_itself_enough() -> None:
     try:
         resource.setrlimit(resource.RLIMIT_NOFILE, (256, before[1]))
         allow_enough()
-        assert resource.getrlimit(resource.RLIMIT_NOFILE)[0] == min(ENOUGH, before[1])
+        assert resource.getrlimit(resource.RLIMIT_NOFILE)[0] == min(ENOUGH_FILES, before[1])
     finally:
         resource.setrlimit(resource.RLIMIT_NOFILE, before)

@@ -12,7 +12,7 @@ from rotator.exchange.faults import Notice
 LOOKED_AT = 100
 """Number of latest readings that count: five seconds at 20 Hz, two at 50 Hz."""
 NOTICED, NOTICED_NO_MORE = 4, 1
-TOO_MANY = 8
+TOO_MANY_BAD = 8
 HEALED_S = 1.0
 """A fault for too many bad readings can be acknowledged this long after the last bad one."""
 NOTICE = Notice(
@@ -52,7 +52,7 @@ class BadReadings:
             self._noticed = True
         elif self._count <= NOTICED_NO_MORE:
             self._noticed = False
-        self._too_many = self._too_many or self._count >= TOO_MANY
+        self._too_many = self._too_many or self._count >= TOO_MANY_BAD
 
     def too_many(self, now_s: float) -> bool:
         """Whether the sensor is too bad to move the axis. It is good again after a while without a bad reading."""

@@ -20,7 +20,7 @@ from rotator.exchange.motor import Trust
 
 SLOWEST_SHARE = 0.3
 """A powered motor turns at this share of its speed at least."""
-SURE = 1.4
+SURE_PAUSES = 1.4
 """A contact is silent after this many times the longest pause between two changes of a run."""
 CHANGE_READ_S = 0.1
 """A change of the contact has been read after this time."""
@@ -165,7 +165,7 @@ class ContactWatch:
     def _pause_s(self) -> float:
         """For how long the contact of a powered motor may be silent."""
         if len(self._moments_s) == self._moments_s.maxlen:
-            return SURE * (self._moments_s[-1] - self._moments_s[0])
+            return SURE_PAUSES * (self._moments_s[-1] - self._moments_s[0])
         return self._period_s / SLOWEST_SHARE
 
     def _turned(self, *, lost: bool) -> bool:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from rotator.exchange.faults import Notice
 
-RESUME = 0.5
+RESUME_SHARE = 0.5
 """A motor that had to rest may run again when it has cooled to this share, after half of its rest."""
 
 
@@ -34,7 +34,7 @@ class Endurance:
         self._at_s, self._running = now_s, running
         if self._heat_s >= self._longest_run_s:
             self.resting = True
-        elif self._heat_s <= RESUME * self._longest_run_s:
+        elif self._heat_s <= RESUME_SHARE * self._longest_run_s:
             self.resting = False
 
     @property

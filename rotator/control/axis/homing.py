@@ -17,13 +17,13 @@ from hw.ports import Direction
 from rotator.control.axis.readings import Condition
 
 QUIET_PERIODS = 3.0
-PROOF = 2
+PROOF_CHANGES = 2
 """Changes of the contact on the way up that prove it alive: it has closed and opened."""
-ALIKE = 1
+ALIKE_CHANGES = 1
 """Changes that may be missing on the way back, or be too many: the end may be at an edge of the contact."""
 TRIES = 3
 """Times that the way up and back is tried. A shaft that trembles on an edge changes the contact more often."""
-STUCK = 8
+STUCK_CHANGES = 8
 """Changes of the contact on the way up after which a limit switch that is still open does not work."""
 CHANGE_SURELY_READ_S = 0.2
 """The time after which a change of the contact has been read for certain."""
@@ -120,7 +120,7 @@ class Homing:
                 self._judge(now_s, changes)
             case _Phase.UP if quiet:
                 return self._fail("no pulse came in either direction: look at the contact, its wires and the motor")
-            case _Phase.UP if at_switch and changes - self._base >= STUCK:
+            case _Phase.UP if at_switch and changes - self._base >= STUCK_CHANGES:
                 return self._fail("the low limit switch stays open: look at its wires")
             case _Phase.UP if self._well_above(condition, at_switch=at_switch):
                 self._enter(_Phase.TOP, now_s)
@@ -131,13 +131,13 @@ class Homing:
 
     def _well_above(self, condition: Condition, *, at_switch: bool) -> bool:
         """Pulses have come, and the contact has just entered the wider part of its period: away from its edges."""
-        proved = condition.changes - self._base >= PROOF
+        proved = condition.changes - self._base >= PROOF_CHANGES
         return proved and not at_switch and condition.closed is self._settings.mostly_closed
 
     def _judge(self, now_s: float, changes: int) -> None:
         """The axis stands at an end: at home, where as many changes came on the way back as on the way up."""
         back = changes - self._base
-        if self._up is not None and abs(back - self._up) <= ALIKE:
+        if self._up is not None and abs(back - self._up) <= ALIKE_CHANGES:
             self.homed = True
         elif self._up is not None and self._tries >= TRIES:
             self._fail(

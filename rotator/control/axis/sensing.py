@@ -10,7 +10,7 @@ import math
 from collections import deque
 
 from hw.ports import Axis
-from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY, BadReadings
+from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY_BAD, BadReadings
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.sparks import SeenAt, Sparks
@@ -160,9 +160,8 @@ class Sensing:
         if not self._rate.too_many(now_s):
             return None
         last = f", now {latest.name}" if latest else ""
-        return Fault(
-            FaultKind.BAD_READINGS, self._axis, f"{count} of the last {LOOKED_AT}{last}", f"{TOO_MANY} of {LOOKED_AT}"
-        )
+        measured = f"{count} of the last {LOOKED_AT}{last}"
+        return Fault(FaultKind.BAD_READINGS, self._axis, measured, f"{TOO_MANY_BAD} of {LOOKED_AT}")
 
     def _degrees(self, raw: float) -> float:
         raw = raw if math.isfinite(raw) else -1.0

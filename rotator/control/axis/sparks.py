@@ -14,7 +14,7 @@ SeenAt = tuple[float, float]
 SPARK_DEG = 3.0
 SPARK_NOISES = 6.0
 """A spark is a reading further off than this angle, this many times the noise, and the furthest turn of the axis."""
-AGREE = 3
+AGREEING_SPARKS = 3
 """This many sparks in a row that agree with each other are not sparks: the axis is there."""
 FASTER_THAN_KNOWN = 2.0
 """How many times faster than known an axis may be."""
@@ -31,7 +31,7 @@ class Sparks:
     def __init__(self, fastest_dps: float) -> None:
         self._fastest_dps = fastest_dps
         self._believed: SeenAt | None = None
-        self._off: deque[SeenAt] = deque(maxlen=AGREE)
+        self._off: deque[SeenAt] = deque(maxlen=AGREEING_SPARKS)
 
     def begin_anew(self) -> None:
         """The readings mean other places than before."""
@@ -48,7 +48,7 @@ class Sparks:
         while self._off and not self._near(self._off[-1], place, noise_deg):
             self._off.popleft()
         self._off.append(place)
-        if len(self._off) < AGREE:
+        if len(self._off) < AGREEING_SPARKS:
             return ()
         places = tuple(self._off)
         self._believed = place

@@ -24,7 +24,7 @@ TURNED_BACK_S = 0.4
 takes 1.5 s and this."""
 ARRIVED_S = 0.5
 """An axis that stays near its target for this long is not left behind."""
-MEAN_OF = 5
+MEAN_READINGS = 5
 """The axis is at the mean of this many readings: one alone scatters by more than a slow motor turns."""
 COMING_DEG, COMING_NOISES = 0.5, 2.7
 """An axis comes nearer when it moved towards its place by more than this angle, and this many times the noise."""
@@ -53,7 +53,7 @@ class StrayWatch:
         self._stray_s = max(STRAY_S, speed_dps / accel_dps2 + TURNED_BACK_S) if accel_dps2 else STRAY_S
         self._apart_deg = max(stray_deg, 2.0 * near_deg)
         """A target that has moved this far has left the dead band, from any place of the axis in it."""
-        self._latest_deg: deque[float] = deque(maxlen=MEAN_OF)
+        self._latest_deg: deque[float] = deque(maxlen=MEAN_READINGS)
         self._sent_for_s = 0.0
         """For how long, in all, it was sent somewhere."""
         self._sent_s: float | None = None

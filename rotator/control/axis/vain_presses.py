@@ -10,7 +10,7 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.smoothing import SETTLES_S, Smoothed
 from rotator.exchange.faults import Notice
 
-ENOUGH, ENOUGH_S = 3, 1.0
+ENOUGH_PRESSES, ENOUGH_S = 3, 1.0
 """An axis is pressed in vain after this many presses in a row, and this time in all, that did not move it."""
 LONG_S = 4.5
 """Or after this time in all: presses that follow each other without a pause look like one."""
@@ -29,7 +29,7 @@ class VainPresses:
         self._smoothed = Smoothed()
         self.forget()
         if before:
-            self._count, self._pressed_s = ENOUGH, ENOUGH_S
+            self._count, self._pressed_s = ENOUGH_PRESSES, ENOUGH_S
 
     def forget(self) -> None:
         """A person has looked."""
@@ -47,7 +47,7 @@ class VainPresses:
     def enough(self) -> bool:
         """Whether the axis has been pressed in vain often enough, or for long enough, for the note."""
         long = self._pressed_s + self._present_s >= LONG_S
-        return long or (self._count >= ENOUGH and self._pressed_s >= ENOUGH_S)
+        return long or (self._count >= ENOUGH_PRESSES and self._pressed_s >= ENOUGH_S)
 
     def note_relays(self, relays: RelayState) -> None:
         """The relays have changed. A reversal goes on with the press."""

@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from rotator.control.axis.bad_readings import HEALED_S, LOOKED_AT, NOTICED, TOO_MANY, BadReadings
+from rotator.control.axis.bad_readings import HEALED_S, LOOKED_AT, NOTICED, TOO_MANY_BAD, BadReadings
 
 STEP_S = 0.05
 
@@ -74,8 +74,8 @@ def test_only_the_latest_hundred_count(seed: int) -> None:
 
 
 def test_too_many_stay_too_many_until_a_while_after_the_last_one() -> None:
-    rate = after([True] * TOO_MANY)
-    last_s = (TOO_MANY - 1) * STEP_S
+    rate = after([True] * TOO_MANY_BAD)
+    last_s = (TOO_MANY_BAD - 1) * STEP_S
     assert rate.too_many(last_s + HEALED_S - 0.01)
     assert not rate.too_many(last_s + HEALED_S)
     assert rate.count == 0, "it begins anew"

@@ -7,7 +7,7 @@ import random
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.control.axis.sparks import AGREE, SeenAt, Sparks
+from rotator.control.axis.sparks import AGREEING_SPARKS, SeenAt, Sparks
 
 STEP_S = 0.05
 FASTEST_DPS = 6.0
@@ -58,7 +58,7 @@ def test_what_the_noise_and_twice_the_known_speed_explain_is_believed() -> None:
     speed_dps=st.floats(-2.0 * FASTEST_DPS, 2.0 * FASTEST_DPS),
     seed=st.integers(0, 9999),
     each=st.integers(2, 50),
-    gap=st.integers(0, AGREE - 1),
+    gap=st.integers(0, AGREEING_SPARKS - 1),
 )
 def test_a_real_motion_is_never_left_out(speed_dps: float, seed: int, each: int, gap: int) -> None:
     """With noise, and with readings missing now and then, at up to twice the speed that is known."""
