@@ -21,14 +21,14 @@ _LINE = re.compile(r"([12]) [ 0-9A-Z][ 0-9]{4}")
 
 def looks_like_tle(text: str) -> bool:
     """Whether a line of the text begins as a TLE's does."""
-    return any(_LINE.match(line) for line in text.splitlines())
+    return any(_LINE.match(line.lstrip()) for line in text.splitlines())
 
 
 def read(text: str) -> Iterator[Elements | str]:
     """Each set of a text, in its order; a sentence with its line in place of each wrong set."""
     name = ""
     first: tuple[int, str] | None = None
-    for number, line in enumerate((line.rstrip() for line in text.splitlines()), 1):
+    for number, line in enumerate((line.strip() for line in text.splitlines()), 1):
         if not line:
             continue
         if line.startswith("1 ") and _LINE.match(line):

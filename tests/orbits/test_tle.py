@@ -47,6 +47,13 @@ def test_without_names_the_number_is_the_name() -> None:
     assert iss.name == "25544"
 
 
+@pytest.mark.parametrize("indent", [" ", "    ", "\t"])
+def test_lines_that_were_copied_with_an_indent_are_read(indent: str) -> None:
+    text = "".join(f"{indent}{line}  \r\n" for line in ISS.splitlines())
+    assert tle.looks_like_tle(text)
+    assert list(tle.read(text)) == list(tle.read(ISS))
+
+
 def test_space_track_writes_a_zero_before_the_name() -> None:
     (iss,) = tle.read("0 " + ISS)
     assert isinstance(iss, Elements)
