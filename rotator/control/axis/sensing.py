@@ -28,6 +28,7 @@ JUMP_DEG = 5.0
 JUMPS = 3
 JUMPS_WITHIN_S = 0.3
 """A spark is two jumps, out and back. One more jump within this time means a loose wire."""
+JUMP_LIMIT = f"{JUMP_DEG:g}° more than its motor can turn"
 MOVES, MOVES_WITHIN_S = 3, 120.0
 """A sensor whose readings jump to another place and stay there this often does not show where the axis is."""
 JUMPED_SHOWN_S = 60.0
@@ -184,6 +185,3 @@ class Sensing:
         measured = f"by {max(map(abs, sizes_deg)):.0f}°, {JUMPS} times in {JUMPS_WITHIN_S:g} s"
         self._jumped = Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")
         return self._jumped
-
-
-JUMP_LIMIT = f"{JUMP_DEG:g}° more than its motor can turn"

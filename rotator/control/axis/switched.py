@@ -266,5 +266,5 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
 
     @property
     def _placed(self) -> bool:
-        """Whether its readings are angles, and its limits known."""
+        """Whether the readings of the axis are angles, and its limits known."""
         return self._sensing.calibration is not None and Missing.LIMITS not in self.missing
