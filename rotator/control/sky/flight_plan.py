@@ -11,11 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.known_path import KnownPath, Row, rows_around
 from rotator.control.sky.led import led
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.one_at_a_time import before_azimuth
-from rotator.control.sky.route import STEP_S, Speeds, Way
+from rotator.control.sky.route import STEP_S, Speeds, Way, is_seen
 from rotator.control.sky.steps import Trail, best_steps
 from rotator.control.sky.turn_timing import Change, change_of
 from rotator.control.sky.turning import lifted_between_deg
@@ -78,7 +79,12 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
     azimuth_plan = _axis_plan(Trail(begin_s, azimuths_deg, flat), azimuth, mount.azimuth, now_s)
     elevation_plan = _axis_plan(Trail(begin_s, elevations_deg, up), elevation, mount.elevation, now_s)
     if azimuth.alone:
-        steps = before_azimuth(azimuth_plan.steps, elevation_plan.steps, speeds)
+
+        def off_deg(at_s: float, azimuth_deg: float, elevation_deg: float) -> float:
+            direction = path.direction(at_s)
+            return great_circle_deg(azimuth_deg, elevation_deg, *direction) if is_seen(mount, *direction) else 0.0
+
+        steps = before_azimuth(azimuth_plan.steps, elevation_plan.steps, speeds, off_deg)
         elevation_plan = replace(elevation_plan, steps=steps)
     return FlightPlan(route, Fly(name, path.rows, azimuth_plan, elevation_plan))
 
