@@ -94,14 +94,14 @@ class PageCalibration:
         result = self._guide.result
         if result is None:
             return
-        from rotator.calibrating.saving import save  # noqa: PLC0415 - loads tomlkit, which a start can do without
+        from rotator.calibrating.saving import save, saved_in  # noqa: PLC0415 - loads tomlkit, which a start can do without
 
         try:
             await asyncio.to_thread(save, result, self._path)
         except (OSError, ConfigError) as fault:
             self._say(f"It cannot be saved: {fault}")
         else:
-            self._say(f"Saved in {self._path}; the file before is {self._path.name}.bak.")
+            self._say(saved_in(self._path))
 
     def _say(self, *lines: str) -> None:
         with self._lock:

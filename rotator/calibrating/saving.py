@@ -20,6 +20,11 @@ def save(result: Saved, path: Path) -> None:
     save_table(path, table, **keys)
 
 
+def saved_in(path: Path) -> str:
+    """The sentence for the operator after `save`."""
+    return f"Saved in {path}; the file before is {path.name}.bak."
+
+
 def as_toml(result: Saved) -> str:
     """The same keys as text, for an operator who gave no file."""
     table, keys = _keys(result)

@@ -20,7 +20,7 @@ from rotator.assembly.kept_files import build_latch_file
 from rotator.assembly.station import Station
 from rotator.calibrating.results import AngleConfirmed, Result
 from rotator.calibrating.rig import AxisRig, NorthRig, Rig
-from rotator.calibrating.saving import as_toml, save
+from rotator.calibrating.saving import as_toml, save, saved_in
 from rotator.calibrating.sky_rig import SkyRig, receiver_at
 from rotator.calibrating.sky_table import Residuals
 from rotator.calibrating.stops import UNREACHED, Stops
@@ -175,5 +175,5 @@ class CalibrationSession:
         except (OSError, ConfigError) as fault:
             self._screen.show(f"It cannot be saved: {fault}. In the file it would be:\n\n{as_toml(result)}")
             return False
-        self._screen.show(f"Saved in {self._path}; the file before is {self._path.name}.bak.")
+        self._screen.show(saved_in(self._path))
         return True

@@ -63,7 +63,7 @@ def _table(words: str) -> list[str] | None:
     like_a_file = "." in words or "/" in words
     if not like_a_file or (path.suffix.lower() != ".csv" and not os.path.isfile(path)):
         return None
-    from rotator.protocols.table_text import FORM, TableError, read_table  # noqa: PLC0415 - no other target needs it
+    from rotator.protocols.table_text import TableError, no_text, read_table  # noqa: PLC0415 - no other target needs it
     from rotator.store.plain import read_plain  # noqa: PLC0415
 
     try:
@@ -72,7 +72,7 @@ def _table(words: str) -> list[str] | None:
     except OSError as fault:
         raise CommandFailed(f"{path}: {fault.strerror}") from None
     except UnicodeDecodeError:
-        raise CommandFailed(f"{path}: is no text file (UTF-8). {FORM}") from None
+        raise CommandFailed(no_text(str(path))) from None
     except TableError as mistake:
         raise CommandFailed(str(mistake)) from None
     return text.splitlines()

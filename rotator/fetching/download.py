@@ -25,8 +25,7 @@ from urllib.request import (
 )
 
 from rotator import __version__
-from rotator.orbits.element_files import MOST_BYTES, parse
-from rotator.orbits.moments import DAY_S
+from rotator.orbits.element_files import EPOCH_AHEAD_S, MOST_BYTES, parse
 from rotator.store.whole import write_whole
 
 ANSWER_S = 15.0
@@ -44,8 +43,6 @@ _REDIRECTS = (
 )
 LEAST_SHARE = 0.5
 """An answer with a smaller share of the satellites of the last good one is refused the first time."""
-AHEAD_S = 10 * DAY_S
-"""The epoch of published elements is at most this far ahead, in seconds."""
 MOST_WRONG = 1000
 """When wrong sets outnumber right ones by so many, the rest is not checked."""
 
@@ -185,7 +182,7 @@ def checked(content: bytes, utc_s: float) -> int:
     except UnicodeDecodeError:
         raise ValueError("it is no text") from None
     for each in found:
-        if not isinstance(each, str) and each.epoch_utc_s <= utc_s + AHEAD_S:
+        if not isinstance(each, str) and each.epoch_utc_s <= utc_s + EPOCH_AHEAD_S:
             good.add(each.catalogue_number)
             continue
         if not wrong:

@@ -10,9 +10,8 @@ from collections.abc import Sequence
 from operator import itemgetter
 from pathlib import Path
 
-from rotator.orbits.element_files import FileContent, Read, files, read_again, read_file, stamp_of
+from rotator.orbits.element_files import EPOCH_AHEAD_S, FileContent, Read, files, read_again, read_file, stamp_of
 from rotator.orbits.elements import Elements
-from rotator.orbits.moments import DAY_S
 from rotator.orbits.names import meant, numbers_by_name, plain
 
 NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
@@ -20,8 +19,6 @@ NOT_FETCHED = "No satellites are known: none have been fetched yet; `rotator sky
 MOST_FAULTS = 3
 """Faults of files in one sentence."""
 STILL_READ = "the files of elements are still being read: try again in a moment"
-_AHEAD_S = 10 * DAY_S
-"""Days that an epoch may be ahead of its file: elements are written for today, or for some days ahead."""
 
 
 class Unknown(ValueError):  # noqa: N818 - a sentence about a name
@@ -127,7 +124,7 @@ def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
 
     A wrong epoch in the year 9999 would win for ever. This computer's clock may not be set yet, and is not asked.
     """
-    ahead = elements.epoch_utc_s > written_s + _AHEAD_S
+    ahead = elements.epoch_utc_s > written_s + EPOCH_AHEAD_S
     return not ahead, -elements.epoch_utc_s if ahead else elements.epoch_utc_s
 
 

@@ -14,11 +14,14 @@ from pathlib import Path
 
 from rotator.orbits import omm, tle
 from rotator.orbits.elements import Elements, printable
+from rotator.orbits.moments import DAY_S
 
 SUFFIXES = (".tle", ".txt", ".json", ".csv")
 """The files that are read from a folder. A file named in full may have any name."""
 MOST_BYTES = 64_000_000
 """The whole public catalogue as JSON has 20 MB."""
+EPOCH_AHEAD_S = 10 * DAY_S
+"""Seconds that an epoch may be ahead of its file: elements are written for today, or for some days ahead."""
 Stamp = tuple[int, int]
 """Time and size of a file."""
 Found = list[Elements | str]

@@ -34,6 +34,11 @@ class TableError(ValueError):
     """The text holds no table. It says where, with the line, and why."""
 
 
+def no_text(place: str) -> str:
+    """The sentence about a file whose bytes are no text."""
+    return f"{place}: is no text file (UTF-8). {FORM}"
+
+
 def read_table(text: str, name: str, place: str, *, turns: bool = False) -> TimedTable:
     """`place`: where the text stands, for the error. `turns`: azimuth may be above 360 and elevation above 90; then the
     table names its turns, and all of its angles stay as they stand. Raises TableError.

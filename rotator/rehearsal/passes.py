@@ -13,7 +13,7 @@ from pathlib import Path
 from rotator.control.sky.known_path import Row, direction_at, rows_around
 from rotator.control.sky.named_turns import names_turns, on_the_sky
 from rotator.control.sky.timed_table import TimedTable
-from rotator.protocols.table_text import FORM, TableError, read_table
+from rotator.protocols.table_text import TableError, no_text, read_table
 from rotator.store.plain import NoPlainFileError, read_plain
 
 SHIPPED = Path(__file__).parent / "shipped"
@@ -100,4 +100,4 @@ def _text(path: Path) -> str:
     except OSError as fault:
         raise PassError(f"{path}: cannot be read: {fault.strerror}") from fault
     except UnicodeDecodeError as fault:
-        raise PassError(f"{path}: is no text file (UTF-8). {FORM}") from fault
+        raise PassError(no_text(str(path))) from fault

@@ -22,7 +22,7 @@ from rotator.rehearsal.at_once import PlansAtOnce
 from rotator.rehearsal.passes import Pass, PassError
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.next_flight import AHEAD_S, target_path
+from rotator.tracking.next_flight import AHEAD_S, does_not_rise, target_path
 from rotator.tracking.tracker import Tracker
 
 LONGEST_S = 7200.0
@@ -56,7 +56,7 @@ def next_pass(config: Config, words: str, after_utc_s: float) -> tuple[Pass, Sky
     except (Unknown, NotThere) as reason:
         raise PassError(str(reason)) from None
     if found is None:
-        raise PassError(f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days")
+        raise PassError(does_not_rise(target))
     if found.aos_s is None or found.los_s is None or not math.isfinite(found.los_s - found.aos_s):
         raise PassError(f"{target.name} does not rise and set: there is no pass to fly")
     until_s, name = found.los_s, target.name

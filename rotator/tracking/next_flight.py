@@ -75,12 +75,16 @@ class NextFlight:
     order: Fly
 
 
+def does_not_rise(target: Target) -> str:
+    return f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days"
+
+
 def next_flight(wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
     """Raises NeverRises, NotThere, Unknown."""
     target = wanted.target()
     found = next(passes(target, now.utc_s, now.utc_s + AHEAD_S), None)
     if found is None:
-        raise NeverRises(f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days")
+        raise NeverRises(does_not_rise(target))
     return flight_between(target, found, _span(found, now.utc_s), antenna, now)
 
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hw.ports import Axis, Direction
-from rotator.exchange.spoken import sender
 from rotator.exchange.status import AxisStatus, Status
-from rotator.views.words import TURNS, WireView, degrees, notes
+from rotator.views.words import TURNS, WireView, degrees, notes, stopped_by
 
 
 def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
@@ -25,7 +24,7 @@ def line(status: Status) -> str:
     if status.mode_switch:
         parts.append(f"mode {status.mode.name}")
     if status.latched:
-        parts.append(f"{'STORM PARK' if status.storm else 'STOPPED'} by {sender(status.latched)}")
+        parts.append(stopped_by(status))
     parts += [f"FAULT {fault}" for fault in status.faults]
     parts += [f"NOTE {notice}" for notice in notes(status)]
     return "  ".join(parts)

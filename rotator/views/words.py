@@ -52,6 +52,11 @@ class WireView(Protocol):
     last_out: bytes
 
 
+def stopped_by(status: Status) -> str:
+    """The latched stop and its sender, in capitals as a fault."""
+    return f"{'STORM PARK' if status.storm else 'STOPPED'} by {sender(status.latched)}"
+
+
 def headline(status: Status) -> tuple[str, str]:
     """The activity of the box in a few words, and their style. The worst comes first."""
     faulted = [axis.value for axis in Axis if status.axis(axis).fault]
@@ -60,7 +65,7 @@ def headline(status: Status) -> tuple[str, str]:
     if loud := next((fault.act_now for fault in status.faults if fault.act_now), ""):
         return loud, ALARMS
     if status.latched:
-        return f"{'STORM PARK' if status.storm else 'STOPPED'} by {sender(status.latched)}", ALARMS
+        return stopped_by(status), ALARMS
     if faulted:
         return f"FAULT {' and '.join(faulted)}", ALARMS
     if homing:

@@ -13,7 +13,7 @@ from aiohttp import web
 
 from rotator.protocols.methods import WrongValuesError
 from rotator.protocols.operating import Operating
-from rotator.protocols.table_text import FORM, TableError, read_table
+from rotator.protocols.table_text import TableError, no_text, read_table
 from rotator.store.paired import Paired
 from rotator.web.entrance import Entrance, bytes_of, error
 from rotator.web.route import Route, post
@@ -38,7 +38,7 @@ def route(entrance: Entrance, operating: Callable[[Paired], Operating], in_words
             # In a thread of its own: a long table takes a second on a small computer.
             table = await asyncio.to_thread(read_table, content.decode("utf-8-sig"), _name(file), file, turns=True)
         except UnicodeDecodeError:
-            return error(400, f"{file}: is no text file (UTF-8). {FORM}")
+            return error(400, no_text(file))
         except TableError as mistake:
             return error(400, str(mistake))
         refused = operating(who).program(table)
