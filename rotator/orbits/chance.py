@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
-from rotator.orbits.rise_chance import rise_chance
+from rotator.orbits.rise_chance import lift_off_chance, rise_chance
 from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath
 
 TRAVEL_ROUNDINGS = 3.0
@@ -31,8 +31,8 @@ sky, and where it begins as a satellite rises."""
 STANDING_CHANCE = 1e-4
 """The same for a stream that stands at the horizon from its beginning on."""
 LIKELY_SHARE, MOST_LIKELY = 0.5, 12
-"""The satellites that this station uses have this share of `STANDING_CHANCE`, and all others have the rest. So many of
-them are recognised after eight seconds, rounded or cut off."""
+"""The satellites that this station uses have this share of the chance that is allowed at a rise, and all others have
+the rest. So many of them are recognised after eight seconds, rounded or cut off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,13 +43,13 @@ class Known:
     likely: int
     up: int
 
-    def standing_share(self, *, likely: bool) -> float:
-        """The share of one satellite in `STANDING_CHANCE`. The shares of all satellites add up to it."""
+    def share(self, *, likely: bool) -> float:
+        """The share of one satellite in an allowed chance. The shares of all satellites add up to 1."""
         if self.likely in (0, self.all):
-            return STANDING_CHANCE / max(1, self.all)
+            return 1.0 / max(1, self.all)
         if likely:
-            return LIKELY_SHARE * STANDING_CHANCE / self.likely
-        return (1.0 - LIKELY_SHARE) * STANDING_CHANCE / (self.all - self.likely)
+            return LIKELY_SHARE / self.likely
+        return (1.0 - LIKELY_SHARE) / (self.all - self.likely)
 
 
 def has_moved(orders: Sequence[Heard]) -> bool:
@@ -79,13 +79,26 @@ def line_chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> 
 
 
 def rising_line_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
-    """The probability that a line at random begins at the horizon as this satellite rises there, and moves as it does.
+    """The probability that a line at random begins at the horizon, or leaves it, as this satellite does when it rises,
+    and moves as it does.
 
-    1: the orders do not begin as it rises. `orders`: those that tell something of it. Before them the program may have
+    1: the orders do neither as it rises. `orders`: those that tell something of it. Before them the program may have
     waited at the horizon for any time.
     """
+    begins = rise_chance(path, orders, clocks_s, rounding) * _motion_chance(path, orders, rounding)
+    waiting = sum(1 for _ in takewhile(lambda each: each.elevation_deg == 0, orders))
+    if not 0 < waiting < len(orders):
+        return begins
+    # The program may have waited with an azimuth that stood, so only the orders from its last one on show a motion.
+    leaving = orders[waiting - 1 :]
+    leaves = lift_off_chance(path, leaving, clocks_s, rounding)
+    return min(begins, leaves * _motion_chance(path, leaving, rounding))
+
+
+def _motion_chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
+    """The probability that a line at random moves as this satellite does, as far as the orders show it."""
     loose_dps = _loose_dps(orders, _travelled_dps(path, orders), rounding)
-    return rise_chance(path, orders, clocks_s, rounding) * min(1.0, loose_dps**2 / (math.pi * FASTEST_DPS**2))
+    return min(1.0, loose_dps**2 / (math.pi * FASTEST_DPS**2))
 
 
 def _travelled_dps(path: SampledPath, orders: Sequence[Heard]) -> float:

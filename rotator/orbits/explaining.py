@@ -14,15 +14,15 @@ from dataclasses import dataclass
 from rotator.orbits.chance import (
     LINE_CHANCE,
     RISING_LINE_CHANCE,
+    STANDING_CHANCE,
     Known,
     has_moved,
     has_told,
     line_chance,
     rising_line_chance,
 )
-from rotator.orbits.heard_orders import are_enough
 from rotator.orbits.neighbours import has_likely_clock
-from rotator.orbits.rise_chance import standing_chance
+from rotator.orbits.rise_chance import begins_with_rise, standing_chance
 from rotator.orbits.sight import NotThere
 from rotator.orbits.stream_fit import Heard, SampledPath, clocks_that_explain, rounding_deg, telling
 
@@ -54,17 +54,16 @@ def explained(
 def _is_sure(found: Explained, orders: Sequence[Heard], known: Known, likely: Collection[str]) -> bool:
     """Whether the orders show enough of this satellite. Raises NotThere."""
     path, clocks_s, rounding = found.path, found.clocks_s, found.rounding_deg
-    told = telling(path, orders)
-    if not are_enough(told):
-        return False
+    share = known.share(likely=path.satellite.name in likely)
+    # Each clock that explains the orders explains all of these.
+    told = orders if begins_with_rise(path, orders, clocks_s, rounding) else telling(path, orders, clocks_s[0])
     if not has_moved(told):
         # In whole degrees a satellite may stand for 15 s after its rise. Then only place and time identify it.
-        allowed = known.standing_share(likely=path.satellite.name in likely)
-        return standing_chance(path, orders, clocks_s, rounding) <= allowed
+        return standing_chance(path, orders, clocks_s, rounding) <= share * STANDING_CHANCE
     return (
         has_told(path, told, rounding)
-        and _is_no_chance(found, told, known)
-        and has_likely_clock(path, orders, rounding)
+        and _is_no_chance(found, told, known.up, share)
+        and has_likely_clock(path, told, rounding)
     )
 
 
@@ -75,11 +74,11 @@ def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tupl
         return ()
 
 
-def _is_no_chance(found: Explained, told: Sequence[Heard], known: Known) -> bool:
+def _is_no_chance(found: Explained, told: Sequence[Heard], up: int, share: float) -> bool:
     """Whether a line at random hardly fits one of all satellites: in the orders' places, or in place and time of their
-    begin."""
+    rise. `up`: the number of satellites that are up now; `share`: this one's share at a rise."""
     path, rounding = found.path, found.rounding_deg
     return (
-        known.up * line_chance(path, told, rounding) <= LINE_CHANCE
-        or known.all * rising_line_chance(path, told, found.clocks_s, rounding) <= RISING_LINE_CHANCE
+        up * line_chance(path, told, rounding) <= LINE_CHANCE
+        or rising_line_chance(path, told, found.clocks_s, rounding) <= share * RISING_LINE_CHANCE
     )

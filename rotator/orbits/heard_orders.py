@@ -9,11 +9,8 @@ import math
 from collections import deque
 from collections.abc import Sequence
 
-from rotator.orbits.stream_fit import UNSTEADY_S, Heard
+from rotator.orbits.stream_fit import UNSTEADY_S, Heard, are_enough
 
-ORDERS = 8
-FEW_ORDERS, FEW_S = 3, 8.0
-"""Orders needed to recognise a satellite. If they come slowly, `FEW_ORDERS` in this time are enough."""
 KEPT = 30
 """Orders for which a stream must agree with a path that it meets later, because any line crosses some path."""
 LONGEST_GAP_S = 20.0
@@ -74,9 +71,3 @@ class HeardOrders:
         if not 0 <= gap_s <= LONGEST_GAP_S:
             return True
         return order.direction.apart_deg(last.direction) > FASTEST_DPS * (gap_s + UNSTEADY_S) + 2.0
-
-
-def are_enough(orders: Sequence[Heard]) -> bool:
-    return len(orders) >= ORDERS or (
-        len(orders) >= FEW_ORDERS and orders[-1].utc_s - orders[0].utc_s >= FEW_S - UNSTEADY_S
-    )

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rotator.orbits.rise_chance import RISE_BIAS_DEG, rises
-from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, Heard, SampledPath, explains, telling
+from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, Heard, SampledPath, explains
 
 WIDE_CLOCKS_S = tuple(clock / 2 for clock in range(-60, 61))
 """Leads of the program's clock among which the best one is looked for, in seconds."""
@@ -25,10 +25,9 @@ def has_likely_clock(path: SampledPath, orders: Sequence[Heard], rounding: float
     Orders that are rounded and orders that are cut off give two clocks. If the stream begins at the horizon, one of
     them is enough; later it must be both, or more orders are needed.
     """
-    told = telling(path, orders)
     at_horizon = orders[0].elevation_deg == 0
     for bias_deg in BIASES_DEG:
-        fits = [_explaining_clocks_s(path, told, rounding, cut_deg, bias_deg) for cut_deg in (0.0, rounding / 2)]
+        fits = [_explaining_clocks_s(path, orders, rounding, cut_deg, bias_deg) for cut_deg in (0.0, rounding / 2)]
         likely = [_is_likely(path, orders[0], clocks_s) for clocks_s in fits if clocks_s]
         if likely:
             return any(likely) if at_horizon else all(likely)
@@ -36,12 +35,12 @@ def has_likely_clock(path: SampledPath, orders: Sequence[Heard], rounding: float
 
 
 def _explaining_clocks_s(
-    path: SampledPath, told: Sequence[Heard], rounding: float, cut_deg: float, bias_deg: float
+    path: SampledPath, orders: Sequence[Heard], rounding: float, cut_deg: float, bias_deg: float
 ) -> list[float]:
     return [
         clock_s
         for clock_s in WIDE_CLOCKS_S
-        if explains(path, told, clock_s, rounding=rounding, cuts_deg=(cut_deg,), bias_deg=bias_deg)
+        if explains(path, orders, clock_s, rounding=rounding, cuts_deg=(cut_deg,), bias_deg=bias_deg)
     ]
 
 

@@ -1,4 +1,5 @@
-"""A stream that begins at the horizon, and a satellite that rises there: whether they fit, and how likely by chance.
+"""A stream that begins at the horizon or leaves it, and a satellite that rises there: whether they fit, and how likely
+by chance.
 
 Knows how often satellites rise, and how long their rounded directions stand after it. Does not know which probability
 is small enough. Looks closer than `stream_fit`: a program whose elements or place differ more from ours is recognised
@@ -37,22 +38,71 @@ def rises(seen: Second) -> bool:
     return RISING_SOON_DEG <= seen.elevation_deg <= JUST_RISEN_DEG and seen.elevation_dps > 0
 
 
+def begins_with_rise(
+    path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float
+) -> bool:
+    """Whether a stream begins when and where one satellite rises, by one of these clocks."""
+    return bool(_rising(path, orders[0], clocks_s, rounding))
+
+
 def rise_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
     """The probability that a stream begins when and where one satellite rises; 1: it does not begin as this one
     rises."""
-    first = orders[0]
-    # An azimuth that is cut off is up to a whole rounding too low, one that is rounded half of it too high.
-    rising = [
+    rising = _rising(path, orders[0], clocks_s, rounding)
+    if not rising:
+        return 1.0
+    return _meeting_chance(rising[0], (JUST_RISEN_DEG - RISING_SOON_DEG) / rising[0].elevation_dps, rounding)
+
+
+def lift_off_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
+    """The probability that a stream's elevation leaves zero when and where that of one satellite does; 1: it does not
+    leave it as this one does. Before, the program may have waited at the horizon for any time.
+
+    `orders`: the last one at the horizon, the first one above it, and any others.
+    """
+    last, first = orders[:2]
+    leaving = [
         seen
         for clock_s in clocks_s
-        if rises(seen := path.at(first.utc_s + clock_s))
-        and -rounding - RISE_BIAS_DEG <= turn_deg(seen.azimuth_deg, first.azimuth_deg) <= rounding / 2 + RISE_BIAS_DEG
+        if _is_near(seen := path.at(first.utc_s + clock_s), first, rounding)
+        and _leaves_zero(path.at(last.utc_s + clock_s), seen, rounding)
     ]
-    if first.elevation_deg > 0 or not rising:
+    if not leaving:
         return 1.0
-    rises_s = (JUST_RISEN_DEG - RISING_SOON_DEG) / rising[0].elevation_dps
-    span_s = CLOCKS_S[-1] - CLOCKS_S[0] + rises_s
-    wide_deg = 1.5 * rounding + 2 * RISE_BIAS_DEG + rises_s * abs(rising[0].azimuth_dps)
+    return _meeting_chance(leaving[0], first.utc_s - last.utc_s + 2 * RISE_BIAS_DEG / leaving[0].elevation_dps, rounding)
+
+
+def _rising(path: SampledPath, first: Heard, clocks_s: Sequence[float], rounding: float) -> list[Second]:
+    """The satellite at the first order of a stream, for each clock by which it rises then and there."""
+    if first.elevation_deg > 0:
+        return []
+    return [
+        seen
+        for clock_s in clocks_s
+        if rises(seen := path.at(first.utc_s + clock_s)) and _is_near(seen, first, rounding)
+    ]
+
+
+def _is_near(seen: Second, order: Heard, rounding: float) -> bool:
+    """Whether the order's azimuth is the satellite's. One that is cut off is up to a whole rounding too low, one that
+    is rounded half of it too high."""
+    over_deg = turn_deg(seen.azimuth_deg, order.azimuth_deg)
+    return -rounding - RISE_BIAS_DEG <= over_deg <= rounding / 2 + RISE_BIAS_DEG
+
+
+def _leaves_zero(before: Second, after: Second, rounding: float) -> bool:
+    """Whether the elevation, rounded or cut off, leaves zero between these moments."""
+    return after.elevation_dps > 0 and any(
+        before.elevation_deg < zero_below_deg + RISE_BIAS_DEG and after.elevation_deg > zero_below_deg - RISE_BIAS_DEG
+        for zero_below_deg in (rounding / 2, rounding)
+    )
+
+
+def _meeting_chance(seen: Second, lasts_s: float, rounding: float) -> float:
+    """The probability that a stream without a satellite meets one satellite at this moment of its rise, known to so many
+    seconds and to the error of the program's clock."""
+    span_s = CLOCKS_S[-1] - CLOCKS_S[0] + lasts_s
+    wide_deg = 1.5 * rounding + 2 * RISE_BIAS_DEG + lasts_s * abs(seen.azimuth_dps)
     return span_s / RISE_EVERY_S * wide_deg / FULL_TURN_DEG
 
 

@@ -17,6 +17,9 @@ CLOCKS_S = tuple(quarter / 4 for quarter in range(-24, 23))
 """Possible leads of the program's clock over UTC: 5 s either way. It may send a direction that is a second old."""
 UNSTEADY_S = 0.3
 """Seconds by which orders may come too early or too late."""
+ORDERS = 8
+FEW_ORDERS, FEW_S = 3, 8.0
+"""Orders needed to recognise a satellite. If they come slowly, `FEW_ORDERS` in this time are enough."""
 BIAS_DEG = 0.3
 """Degrees on the sky for the whole stream: error of other elements, or of another place of the station."""
 LEAST_DEG = 0.02
@@ -110,20 +113,29 @@ def rounding_deg(orders: Sequence[Heard]) -> float:
     return FINEST_DEG
 
 
+def are_enough(orders: Sequence[Heard]) -> bool:
+    return len(orders) >= ORDERS or (
+        len(orders) >= FEW_ORDERS and orders[-1].utc_s - orders[0].utc_s >= FEW_S - UNSTEADY_S
+    )
+
+
 def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
-    """The leads of the program's clock with which this path, rounded, gives the orders. Raises NotThere."""
-    told = telling(path, orders)
-    if not told:
-        return ()
+    """The leads of the program's clock with which this path, rounded, gives the orders, and these show enough of it.
+
+    Raises NotThere.
+    """
     either_deg = 0.0, rounding / 2
-    return tuple(each for each in CLOCKS_S if explains(path, told, each, rounding=rounding, cuts_deg=either_deg))
+    return tuple(
+        clock_s
+        for clock_s in CLOCKS_S
+        if are_enough(told := telling(path, orders, clock_s)) and explains(path, told, clock_s, rounding=rounding, cuts_deg=either_deg)
+    )
 
 
-def telling(path: SampledPath, orders: Sequence[Heard]) -> list[Heard]:
-    """The orders that show something about this satellite. Raises NotThere."""
-    latest_s = CLOCKS_S[-1]
+def telling(path: SampledPath, orders: Sequence[Heard], clock_s: float) -> Sequence[Heard]:
+    """The orders that show something about this satellite if the program's clock leads by this. Raises NotThere."""
     return [
-        each for each in orders if each.elevation_deg > 0 or path.at(each.utc_s + latest_s).elevation_deg > RISING_DEG
+        each for each in orders if each.elevation_deg > 0 or path.at(each.utc_s + clock_s).elevation_deg > RISING_DEG
     ]
 
 

@@ -14,7 +14,7 @@ from rotator.exchange.flight_order import Fly, Stream
 from rotator.exchange.orders import Aim, Leave, Order, Speed, Stop
 from rotator.exchange.program_clock import DEPARTS_DEG
 from rotator.exchange.sources import Source
-from rotator.orbits.heard_orders import ORDERS
+from rotator.orbits.stream_fit import ORDERS
 from rotator.orbits.passes import Pass, passes
 from rotator.orbits.recognition import Departed, Recognised, StreamWatch
 from rotator.orbits.rest_of_pass import rest_of_pass

@@ -13,8 +13,8 @@ import pytest
 
 from benchmarks.recognition import catalogue
 from benchmarks.recognition_delay import ROUNDINGS, recognised_after_s, rises, used
-from rotator.orbits.chance import STANDING_CHANCE, Known
-from rotator.orbits.heard_orders import ORDERS
+from rotator.orbits.chance import Known
+from rotator.orbits.stream_fit import ORDERS
 from rotator.orbits.recognition import StreamWatch
 from rotator.orbits.satellite import Satellite
 from tests.search import examples
@@ -62,10 +62,10 @@ def test_the_shares_of_all_satellites_add_up(known: int, likely: int) -> None:
     if likely > known:
         return
     counted = Known(known, likely, up=1)
-    total = likely * counted.standing_share(likely=True) + (known - likely) * counted.standing_share(likely=False)
+    total = likely * counted.share(likely=True) + (known - likely) * counted.share(likely=False)
     if 0 < likely < known:
-        assert total == pytest.approx(STANDING_CHANCE)
-    assert total <= STANDING_CHANCE * (1 + 1e-9)
+        assert total == pytest.approx(1.0)
+    assert total <= 1 + 1e-9
 
 
 def test_what_was_recognised_once_is_in_use() -> None:
