@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import random
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from benchmarks.numbers import numbers
@@ -28,6 +28,10 @@ from tests.orbits.streams import Path, great_circle
 
 STREAMS, SATELLITES, SECONDS = 10_000, 100, 40
 MOST_FOLLOWED = 20
+UNKNOWN, UNKNOWN_SECONDS = 100, 120
+UNKNOWN_KIND = "another satellite"
+UNKNOWN_DEG = -5.0, 60.0
+"""Elevations of an unknown satellite at the begin of its stream."""
 PERIODS_S = 1, 1, 1, 2, 5
 AT_ONCE = 20
 STATION = Site(48.85, 2.35)
@@ -65,8 +69,8 @@ def catalogue(dice: random.Random, count: int) -> list[Elements]:
     ]
 
 
-def stream(dice: random.Random, from_s: float) -> tuple[str, Path]:
-    """Its kind, and where it points."""
+def stream(dice: random.Random, from_s: float, unknown: Sequence[Satellite]) -> tuple[str, Path]:
+    """Its kind, and where it points. `unknown`: satellites that the box does not know."""
     begin = Sight(dice.uniform(0, 360), math.degrees(math.asin(dice.random())), math.inf)
     low = Sight(begin.azimuth_deg, dice.uniform(0, 15), math.inf)
     course_deg = dice.uniform(0, 360)
@@ -79,8 +83,22 @@ def stream(dice: random.Random, from_s: float) -> tuple[str, Path]:
         "sweep": lambda: sweep(begin, dice.uniform(-3, 3), from_s),
         "knob": lambda: knob(dice, begin, from_s),
     }
+    low_deg, high_deg = UNKNOWN_DEG
+    if up := [each for each in unknown if low_deg < each.sight(from_s).elevation_deg < high_deg]:
+        kinds[UNKNOWN_KIND] = lambda: program(dice.choice(up))
     kind = dice.choice(sorted(kinds))
     return kind, kinds[kind]()
+
+
+def program(satellite: Satellite) -> Path:
+    """It sends elevation 0 until the satellite rises, and ends when it sets."""
+
+    def at(utc_s: float) -> tuple[float, float]:
+        seen, soon = satellite.sight(utc_s), satellite.sight(utc_s + 1)
+        waits = seen.elevation_deg < 0 and soon.elevation_deg > seen.elevation_deg
+        return seen.azimuth_deg, 0.0 if waits else seen.elevation_deg
+
+    return at
 
 
 def sweep(begin: Sight, speed_dps: float, from_s: float) -> Path:
@@ -98,8 +116,10 @@ def knob(dice: random.Random, begin: Sight, from_s: float) -> Path:
     return lambda utc_s: places[round(utc_s - from_s)]
 
 
-def is_recognised(watch: StreamWatch, path: Path, from_s: float, per_degree: int, period_s: int = 1) -> bool:
-    for second in range(0, SECONDS, period_s):
+def is_recognised(
+    watch: StreamWatch, path: Path, from_s: float, per_degree: int, period_s: int = 1, *, seconds: int = SECONDS
+) -> bool:
+    for second in range(0, seconds, period_s):
         azimuth_deg, elevation_deg = (round(deg * per_degree) / per_degree for deg in path(from_s + second))
         if elevation_deg < 0:
             return False
@@ -113,16 +133,20 @@ def is_recognised(watch: StreamWatch, path: Path, from_s: float, per_degree: int
 def main(count: int, seed: int, satellites: int) -> None:
     dice = random.Random(seed)
     elements = catalogue(dice, satellites)
+    others = [each for each in catalogue(dice, UNKNOWN) if each not in elements]
     sent, taken = Counter[str](), Counter[str]()
     for number in range(count):
         if number % AT_ONCE == 0:
             known: list[Satellite] = [Seen(each, STATION) for each in elements]
+            unknown = [Seen(each, STATION) for each in others]
             from_s = elements[0].epoch_utc_s + dice.uniform(0, 2 * 86_400.0)
             followed = [each.name for each in dice.sample(elements, min(satellites, dice.randint(0, MOST_FOLLOWED)))]
-        kind, path = stream(dice, from_s)
+        kind, path = stream(dice, from_s, unknown)
         sent[kind] += 1
         watch = StreamWatch(known, followed)
-        taken[kind] += is_recognised(watch, path, from_s, dice.choice((1, 1, 1, 10, 100)), dice.choice(PERIODS_S))
+        per_degree, period_s = dice.choice((1, 1, 1, 10, 100)), dice.choice(PERIODS_S)
+        seconds = UNKNOWN_SECONDS if kind == UNKNOWN_KIND else SECONDS
+        taken[kind] += is_recognised(watch, path, from_s, per_degree, period_s, seconds=seconds)
     for kind in sorted(sent):
         print(f"{kind:22} {sent[kind]:6} streams, {taken[kind]} taken for a satellite")
     print(f"{'all':22} {sent.total():6} streams, {taken.total()} taken for a satellite")

@@ -38,9 +38,7 @@ def rises(seen: Second) -> bool:
     return RISING_SOON_DEG <= seen.elevation_deg <= JUST_RISEN_DEG and seen.elevation_dps > 0
 
 
-def begins_with_rise(
-    path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float
-) -> bool:
+def begins_with_rise(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> bool:
     """Whether a stream begins when and where one satellite rises, by one of these clocks."""
     return bool(_rising(path, orders[0], clocks_s, rounding))
 
@@ -69,7 +67,8 @@ def lift_off_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequen
     ]
     if not leaving:
         return 1.0
-    return _meeting_chance(leaving[0], first.utc_s - last.utc_s + 2 * RISE_BIAS_DEG / leaving[0].elevation_dps, rounding)
+    between_s, bias_s = first.utc_s - last.utc_s, 2 * RISE_BIAS_DEG / leaving[0].elevation_dps
+    return _meeting_chance(leaving[0], between_s + bias_s, rounding)
 
 
 def _rising(path: SampledPath, first: Heard, clocks_s: Sequence[float], rounding: float) -> list[Second]:
@@ -99,8 +98,8 @@ def _leaves_zero(before: Second, after: Second, rounding: float) -> bool:
 
 
 def _meeting_chance(seen: Second, lasts_s: float, rounding: float) -> float:
-    """The probability that a stream without a satellite meets one satellite at this moment of its rise, known to so many
-    seconds and to the error of the program's clock."""
+    """The probability that a stream without a satellite meets one satellite at this moment of its rise, known to so
+    many seconds and to the error of the program's clock."""
     span_s = CLOCKS_S[-1] - CLOCKS_S[0] + lasts_s
     wide_deg = 1.5 * rounding + 2 * RISE_BIAS_DEG + lasts_s * abs(seen.azimuth_dps)
     return span_s / RISE_EVERY_S * wide_deg / FULL_TURN_DEG

@@ -128,7 +128,8 @@ def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: fl
     return tuple(
         clock_s
         for clock_s in CLOCKS_S
-        if are_enough(told := telling(path, orders, clock_s)) and explains(path, told, clock_s, rounding=rounding, cuts_deg=either_deg)
+        if are_enough(told := telling(path, orders, clock_s))
+        and explains(path, told, clock_s, rounding=rounding, cuts_deg=either_deg)
     )
 
 

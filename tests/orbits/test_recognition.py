@@ -14,13 +14,12 @@ from rotator.exchange.flight_order import Fly, Stream
 from rotator.exchange.orders import Aim, Leave, Order, Speed, Stop
 from rotator.exchange.program_clock import DEPARTS_DEG
 from rotator.exchange.sources import Source
-from rotator.orbits.stream_fit import ORDERS
 from rotator.orbits.passes import Pass, passes
 from rotator.orbits.recognition import Departed, Recognised, StreamWatch
 from rotator.orbits.rest_of_pass import rest_of_pass
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight
-from rotator.orbits.stream_fit import CLOCKS_S
+from rotator.orbits.stream_fit import CLOCKS_S, ORDERS
 from tests.orbits.streams import PROGRAM, News, Path, great_circle, heard, orders, path_of, whole
 from tests.orbits.test_satellite import FLYING, PARIS
 from tests.search import examples

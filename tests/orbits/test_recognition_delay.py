@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import math
 import random
+import statistics
 
 import pytest
 
 from benchmarks.recognition import catalogue
-from benchmarks.recognition_delay import ROUNDINGS, recognised_after_s, rises, used
+from benchmarks.recognition_delay import EARLY_S, ROUNDINGS, Program, recognised_after_s, rises, used
 from rotator.orbits.chance import Known
-from rotator.orbits.stream_fit import ORDERS
 from rotator.orbits.recognition import StreamWatch
 from rotator.orbits.satellite import Satellite
+from rotator.orbits.stream_fit import ORDERS
 from tests.search import examples
 
 LATE_S = 10.0
@@ -32,7 +33,7 @@ def test_a_satellite_is_recognised_within_ten_seconds(rounding: str, known: int,
     for rise in rises(dice, elements, count):
         likely = used(rise, elements, dice) if in_use else ()
         watch = StreamWatch([Satellite(each, rise.site) for each in elements], likely)
-        name, after_s = recognised_after_s(rise, watch, ROUNDINGS[rounding], period_s, dice)
+        name, after_s = recognised_after_s(rise, watch, Program(ROUNDINGS[rounding], period_s), dice)
         assert name == rise.elements.name
         # Its first order comes up to a period after the rise.
         if after_s > LATE_S + period_s - 1.0:
@@ -48,12 +49,31 @@ def test_any_other_is_recognised_when_its_whole_degrees_have_changed(rounding: s
     after_s = []
     for rise in rises(dice, elements, examples(120)):
         watch = StreamWatch([Satellite(each, rise.site) for each in elements])
-        name, late_s = recognised_after_s(rise, watch, ROUNDINGS[rounding], 1.0, dice)
+        name, late_s = recognised_after_s(rise, watch, Program(ROUNDINGS[rounding]), dice)
         assert name == rise.elements.name
         after_s.append(late_s)
     after_s.sort()
     assert after_s[len(after_s) // 2] < LATE_S + 2.0
     assert after_s[len(after_s) * 9 // 10] < 22.0
+
+
+@pytest.mark.search
+@pytest.mark.parametrize(("waits", "rounded_s", "cut_off_s"), [(False, 10.0, 14.0), (True, 12.0, 18.0)])
+def test_a_program_that_waits_at_the_horizon_is_recognised_when_its_elevation_leaves_zero(
+    rounded_s: float, cut_off_s: float, *, waits: bool
+) -> None:
+    """Half of them as soon as this, among 20. In whole degrees elevation leaves zero when the satellite is at 0.5° or
+    1°, and a slow one has its 30 orders by then."""
+    for rounds, soon_s in ((ROUNDINGS["rounded"], rounded_s), (math.floor, cut_off_s)):
+        dice = random.Random(f"early {waits}")
+        elements, after_s = catalogue(dice, 20), []
+        for rise in rises(dice, elements, examples(80)):
+            watch = StreamWatch([Satellite(each, rise.site) for each in elements])
+            name, late_s = recognised_after_s(rise, watch, Program(rounds, early_s=EARLY_S, waits=waits), dice)
+            assert name == rise.elements.name
+            after_s.append(late_s)
+        assert statistics.median(after_s) <= soon_s
+        assert max(after_s) < 32.0
 
 
 @pytest.mark.parametrize("known", [1, 3, 14, 100, 1000])
@@ -78,6 +98,6 @@ def test_what_was_recognised_once_is_in_use() -> None:
         watch = StreamWatch(known)
         for name in earlier:
             watch.used(name)
-        seconds[earlier] = recognised_after_s(rise, watch, math.floor, 1.0, random.Random(1))[1]
+        seconds[earlier] = recognised_after_s(rise, watch, Program(math.floor), random.Random(1))[1]
     assert seconds[rise.elements.name,] < ORDERS + 1.0
     assert seconds[rise.elements.name,] < seconds[()]

@@ -11,7 +11,7 @@ import pytest
 from benchmarks.recognition import catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import passes
-from rotator.orbits.rise_chance import STANDING, rise_chance, standing_chance
+from rotator.orbits.rise_chance import STANDING, lift_off_chance, rise_chance, standing_chance
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Sight
 from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath
@@ -127,3 +127,34 @@ def test_the_chance_of_a_beginning_at_a_rise_counts_its_seconds_and_degrees(roun
     expected = (11.5 + rises_s) / 10_800.0 * (1.5 * rounding + 0.14 + rises_s * AZIMUTH_DPS) / 360.0
     found = rise_chance(SampledPath(Rises()), stands(90.0, 0.0, 8.0), CLOCKS_S, rounding)
     assert found == pytest.approx(expected)
+
+
+def leaves(azimuth_deg: float, at_s: float, rounding: float = 1.0) -> list[Heard]:
+    """The elevation leaves zero at this second."""
+    return [Heard(at_s - 1.0, azimuth_deg, 0.0), Heard(at_s, azimuth_deg, rounding)]
+
+
+@pytest.mark.parametrize("rounding", [1.0, 0.1])
+def test_the_chance_of_leaving_the_horizon_with_a_satellite_counts_its_seconds_and_degrees(rounding: float) -> None:
+    between_s = 1.0 + 0.14 / ELEVATION_DPS
+    expected = (11.5 + between_s) / 10_800.0 * (1.5 * rounding + 0.14 + between_s * AZIMUTH_DPS) / 360.0
+    orders = leaves(90.4 if rounding == 1.0 else 90.0, rounding / 2 / ELEVATION_DPS, rounding)
+    assert lift_off_chance(SampledPath(Rises()), orders, CLOCKS_S, rounding) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    ("azimuth_deg", "at_s", "fits"),
+    [
+        (90.0, 10.0, True),  # rounded: half a degree high
+        (90.0, 20.0, True),  # cut off: a degree high
+        (90.0, 4.0, True),  # rounded, by a clock that is ahead
+        (90.0, 26.0, True),  # cut off, by a clock that is behind
+        (90.0, 0.0, False),  # as it rises: no rounding gives a degree so early
+        (90.0, 35.0, False),
+        (89.4, 10.0, True),
+        (91.2, 10.0, False),  # it has not come so far
+        (87.0, 10.0, False),
+    ],
+)
+def test_which_streams_leave_the_horizon_with_a_satellite(azimuth_deg: float, at_s: float, *, fits: bool) -> None:
+    assert (lift_off_chance(SampledPath(Rises()), leaves(azimuth_deg, at_s), CLOCKS_S, 1.0) < 1.0) == fits
