@@ -24,8 +24,9 @@ BIAS_DEG = 0.3
 """Degrees on the sky for the whole stream: error of other elements, or of another place of the station."""
 LEAST_DEG = 0.02
 """Degrees: no order is taken as more exact than this."""
-RISING_DEG = -0.3
-"""Degrees: below this elevation of the path, an order for the horizon shows nothing about the satellite."""
+RISING_DEG = -0.1
+"""Degrees: below this elevation of the path, an order for the horizon shows nothing about the satellite. Some programs
+wait until its rise with the azimuth of the rise."""
 FINEST_DEG = 0.01
 SINGLE_DEG = 2e-5
 """Degrees: Hamlib's angles have single precision. It sends 110.1° as 110.099998."""
