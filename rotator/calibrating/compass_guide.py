@@ -14,7 +14,7 @@ from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import UNCALIBRATED, CompassReading, HeadingSample
 from rotator.calibrating.entries import Entry, StopNow
 from rotator.calibrating.facts import NorthFacts
-from rotator.calibrating.guide import CONFIRM_S, Abandoned, Steps
+from rotator.calibrating.guide import CONFIRM_S, Steps, refused
 from rotator.calibrating.steering import SteeringGuide
 from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 from rotator.exchange.orders import Aim, Confirm, Stop
@@ -85,7 +85,7 @@ class CompassGuide(SteeringGuide):
                 self._say("Stopped.")
                 return False
             if self._axis.fault is not None:
-                raise Abandoned(f"Refused: {self._axis.fault}. Nothing is saved.")
+                raise refused(self._axis.fault)
             now_deg = self._angles_deg
             if any(abs(now - before) > REST_WITHIN_DEG for now, before in zip(now_deg, stood_deg, strict=True)):
                 stood_deg, still_s = now_deg, self._now_s
@@ -93,7 +93,7 @@ class CompassGuide(SteeringGuide):
                 self._halt()
                 return True
             elif self._now_s - still_s > PATIENCE_S:
-                raise Abandoned("Refused: the azimuth does not go where it is sent. Nothing is saved.")
+                raise refused("the azimuth does not go where it is sent")
             yield
 
     def _sample(self, *, angle_unknown: bool = False) -> Generator[None, None, list[HeadingSample]]:
@@ -114,7 +114,7 @@ class CompassGuide(SteeringGuide):
             elif angle_deg is not None:
                 own_deg = angle_deg - self._facts.shift_deg
             else:
-                raise Abandoned("Refused: the azimuth has no angle. Nothing is saved.")
+                raise refused("the azimuth has no angle")
             magnetometer = compass.calibration.magnetometer
             samples.append(HeadingSample(compass.heading_deg, own_deg, magnetometer, compass.tilt_deg))
         return samples
@@ -151,7 +151,7 @@ class CompassGuide(SteeringGuide):
         self._answered_s = status.at_s if usable or self._answered_s is None else self._answered_s
         if status.at_s - self._answered_s > SILENT_S:
             why = compass.problem if compass and compass.problem else "it does not answer"
-            raise Abandoned(f"Refused: no compass: {why}. Nothing is saved.")
+            raise refused(f"no compass: {why}")
         if compass is not None and usable and self._learning and compass.calibration != self._shown:
             self._shown = compass.calibration
             self._say(f"  compass: {compass.calibration}")

@@ -36,6 +36,7 @@ Asked = Generator[None, None, object]
 
 ANSWERS = (Yes, No, Enter, Number, Finish, Back, Help, Unknown)
 NOTHING_SAVED = "Nothing is saved."
+LEFT = "Left: nothing is saved."
 ORDER_TAKEN_S = 0.5
 """An order shows in the status after this time at the latest."""
 CONFIRM_S = 5.0
@@ -52,6 +53,11 @@ class StepResult:
 
 class Abandoned(Exception):  # noqa: N818 - the guide ends here; the program has not failed
     """The guide cannot go on. The text is the last line the operator sees."""
+
+
+def refused(reason: object) -> Abandoned:
+    """The end of a guide that cannot go on for this reason, a sentence without its full stop."""
+    return Abandoned(f"Refused: {reason}. {NOTHING_SAVED}")
 
 
 class Guide:
@@ -82,7 +88,7 @@ class Guide:
         try:
             self._take(status, entry)
             if isinstance(entry, Quit):
-                raise Abandoned("Left: nothing is saved.")
+                raise Abandoned(LEFT)
             if not self._asking and isinstance(entry, ANSWERS):
                 self._say("Not taken: wait until the box asks.")
             next(self._steps)

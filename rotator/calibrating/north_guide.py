@@ -20,7 +20,7 @@ from rotator.calibrating.bearing import (
 from rotator.calibrating.compass_guide import KEYS, LEAST_PLACES, PAUSE_S, CompassGuide, CompassReady
 from rotator.calibrating.entries import NUMBER_FORM, Enter, No, Number, Yes
 from rotator.calibrating.facts import NorthFacts
-from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
+from rotator.calibrating.guide import LEFT, NOTHING_SAVED, Abandoned, Steps, refused
 from rotator.calibrating.results import AngleConfirmed, NorthFound
 from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 
@@ -81,15 +81,15 @@ class NorthGuide(CompassGuide):
                         if self._is_angle(angle_deg):
                             yield from self._confirm(angle_deg)
                     case No():
-                        raise Abandoned("Left: nothing is saved.")
+                        raise Abandoned(LEFT)
                     case _:
                         self._say(self._accepts)
         axis = self._axis
         if axis.fault is not None:
-            raise Abandoned(f"Refused: {axis.fault}. Nothing is saved.")
+            raise refused(axis.fault)
         if axis.uncalibrated or axis.angle_deg is None:
             missing = axis.uncalibrated or "an angle"
-            raise Abandoned(f"Refused: the azimuth has to be set up first, it lacks {missing}. Nothing is saved.")
+            raise refused(f"the azimuth has to be set up first, it lacks {missing}")
         return False
 
     # --- the compass learns
@@ -154,18 +154,18 @@ class NorthGuide(CompassGuide):
             "   Watch the antenna and its cables.",
         )
         if not (yield from self._agrees("Begin? y or n:")):
-            raise Abandoned("Left: nothing is saved.")
+            raise Abandoned(LEFT)
         found: list[North] = []
         for place_deg in places:
             north = yield from self._visit(place_deg)
             if north is not None:
                 found.append(north)
         if len(found) < LEAST_PLACES:
-            raise Abandoned(f"Refused: {len(found)} places are too few, {LEAST_PLACES} are needed. Nothing is saved.")
+            raise refused(f"{len(found)} places are too few, {LEAST_PLACES} are needed")
         try:
             north = agree(found)
         except NorthUncertain as reason:
-            raise Abandoned(f"Refused: {reason}. Nothing is saved.") from None
+            raise refused(reason) from None
         yield from self._save_corrections()
         yield from self._propose(north, len(found))
 
@@ -220,13 +220,13 @@ class NorthGuide(CompassGuide):
         try:
             bearing = find_north(samples, facts.declination_deg, facts.compass_offset_deg)
         except NorthUncertain as reason:
-            raise Abandoned(f"Refused: {reason}. Nothing is saved.") from None
+            raise refused(reason) from None
         least_deg, most_deg = self._axis.min_deg - facts.shift_deg, self._axis.max_deg - facts.shift_deg
         first_deg, angles = possible_angles_deg(bearing, facts.offset_deg, least_deg, most_deg)
         if not angles:
-            raise Abandoned(
-                f"Refused: by the compass it stands at {first_deg:.1f}° on the rotor's scale, outside of "
-                f"{least_deg:g} to {most_deg:g}. Nothing is saved."
+            raise refused(
+                f"by the compass it stands at {first_deg:.1f}° on the rotor's scale, outside of "
+                f"{least_deg:g} to {most_deg:g}"
             )
         self._say(
             f"By the compass the azimuth stands at {' or '.join(f'{angle:.1f}°' for angle in angles)} on the rotor's "

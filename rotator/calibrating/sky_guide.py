@@ -11,7 +11,7 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from rotator.calibrating.entries import Back, Enter, Entry, Finish, No, Press, StopNow, Yes
-from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps
+from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps, refused
 from rotator.calibrating.results import MountFound
 from rotator.calibrating.sky_facts import SkyFacts
 from rotator.calibrating.sky_table import Residuals, found_text, miss_text, pictures, table, terms_text
@@ -100,11 +100,11 @@ class SkyGuide(SteeringGuide):
     def _check_axes(self) -> None:
         for axis in (self._status.azimuth, self._status.elevation):
             if axis.fault is not None:
-                raise Abandoned(f"Refused: {axis.fault}. Nothing is saved.")
+                raise refused(axis.fault)
         for name, axis in (("azimuth", self._status.azimuth), ("elevation", self._status.elevation)):
             if axis.uncalibrated or axis.angle_deg is None:
                 lacks = axis.uncalibrated or "an angle"
-                raise Abandoned(f"Refused: set up the {name} first, it lacks {lacks}. Nothing is saved.")
+                raise refused(f"set up the {name} first, it lacks {lacks}")
 
     def _check_up(self) -> None:
         name, seen = self._facts.target, self._seen
