@@ -102,8 +102,8 @@ def programs() -> Iterator[tuple[str, Program]]:
             yield f"every {period_s:g} s, {rounding}", Program(rounds, period_s)
     for waits in (False, True):
         for rounding, rounds in ROUNDINGS.items():
-            told = f"{EARLY_S:g} s early, {'azimuth of the rise' if waits else 'its azimuth'}, {rounding}"
-            yield told, Program(rounds, early_s=EARLY_S, waits=waits)
+            described = f"{EARLY_S:g} s early, {'azimuth of the rise' if waits else 'its azimuth'}, {rounding}"
+            yield described, Program(rounds, early_s=EARLY_S, waits=waits)
 
 
 def main(count: int, seed: int, satellites: int) -> None:

@@ -19,6 +19,7 @@ LEAST_TRAVEL_DEG = 0.5
 """Degrees that a satellite must have moved before its orders show course and speed. At its rise less is enough: hardly
 any other motion begins at that place and time low in the sky."""
 RISES_DEG = 5.0
+"""A satellite that climbs below this elevation counts as one that rises."""
 SKY_SQUARE_DEG = 20_627.0
 """Square degrees of the sky above the horizon."""
 LOW_DEG, LOW_SHARE = 15.0, 0.5
@@ -57,7 +58,7 @@ def has_moved(orders: Sequence[Heard]) -> bool:
     return any(before.direction != after.direction for before, after in pairwise(orders))
 
 
-def has_told(path: SampledPath, orders: Sequence[Heard], rounding: float) -> bool:
+def has_come_far(path: SampledPath, orders: Sequence[Heard], rounding: float) -> bool:
     """Whether the satellite has moved far enough in this time, or rises."""
     first, last = path.at(orders[0].utc_s), path.sight(orders[-1].utc_s)
     if first.elevation_deg < RISES_DEG and orders[0].elevation_deg <= RISES_DEG and first.elevation_dps > 0:
@@ -107,7 +108,7 @@ def _travelled_dps(path: SampledPath, orders: Sequence[Heard]) -> float:
 
 
 def _loose_dps(orders: Sequence[Heard], travelled_dps: float, rounding: float) -> float:
-    """The orders leave this much of course and speed open."""
+    """How much the satellite's speed may differ from the true one, in any direction, and still give the same orders."""
     return (rounding + 2 * UNSTEADY_S * travelled_dps) / (orders[-1].utc_s - orders[0].utc_s)
 
 

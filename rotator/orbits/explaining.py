@@ -16,15 +16,15 @@ from rotator.orbits.chance import (
     RISING_LINE_CHANCE,
     STANDING_CHANCE,
     Known,
+    has_come_far,
     has_moved,
-    has_told,
     line_chance,
     rising_line_chance,
 )
 from rotator.orbits.neighbours import has_likely_clock
 from rotator.orbits.rise_chance import begins_with_rise, standing_chance
 from rotator.orbits.sight import NotThere
-from rotator.orbits.stream_fit import Heard, SampledPath, clocks_that_explain, rounding_deg, telling
+from rotator.orbits.stream_fit import Heard, SampledPath, clocks_that_explain, rounding_deg, showing
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,14 +56,14 @@ def _is_sure(found: Explained, orders: Sequence[Heard], known: Known, likely: Co
     path, clocks_s, rounding = found.path, found.clocks_s, found.rounding_deg
     share = known.share(likely=path.satellite.name in likely)
     # Each clock that explains the orders explains all of these.
-    told = orders if begins_with_rise(path, orders, clocks_s, rounding) else telling(path, orders, clocks_s[0])
-    if not has_moved(told):
+    shown = orders if begins_with_rise(path, orders, clocks_s, rounding) else showing(path, orders, clocks_s[0])
+    if not has_moved(shown):
         # In whole degrees a satellite may stand for 15 s after its rise. Then only place and time identify it.
         return standing_chance(path, orders, clocks_s, rounding) <= share * STANDING_CHANCE
     return (
-        has_told(path, told, rounding)
-        and _is_no_chance(found, told, known.up, share)
-        and has_likely_clock(path, told, rounding)
+        has_come_far(path, shown, rounding)
+        and _is_no_chance(found, shown, known.up, share)
+        and has_likely_clock(path, shown, rounding)
     )
 
 
@@ -74,11 +74,11 @@ def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tupl
         return ()
 
 
-def _is_no_chance(found: Explained, told: Sequence[Heard], up: int, share: float) -> bool:
+def _is_no_chance(found: Explained, shown: Sequence[Heard], up: int, share: float) -> bool:
     """Whether a line at random hardly fits one of all satellites: in the orders' places, or in place and time of their
     rise. `up`: the number of satellites that are up now; `share`: this one's share at a rise."""
     path, rounding = found.path, found.rounding_deg
     return (
-        up * line_chance(path, told, rounding) <= LINE_CHANCE
-        or rising_line_chance(path, told, found.clocks_s, rounding) <= share * RISING_LINE_CHANCE
+        up * line_chance(path, shown, rounding) <= LINE_CHANCE
+        or rising_line_chance(path, shown, found.clocks_s, rounding) <= share * RISING_LINE_CHANCE
     )

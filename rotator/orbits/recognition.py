@@ -127,6 +127,7 @@ class _Listener:
         self._source = source
         self._orders = HeardOrders()
         self._near: list[SampledPath] = []
+        """Paths of the satellites that may come near the orders before the next sieving."""
         self._known = Known(0, 0, 0)
         self._sieved_s = -math.inf
         self._next_s = -math.inf
@@ -134,6 +135,7 @@ class _Listener:
         self._followed: SampledPath | None = None
         self._clock: ProgramClock | None = None
         self._soon: list[Soon] = []
+        """Satellites that rise soon."""
         self.recognised: Recognised | None = None
         self.rising: Rising | None = None
         """The satellite for whose rise the orders seem to wait."""

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from rotator.orbits.sight import FULL_TURN_DEG
-from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath, Second, turn_deg
+from rotator.orbits.sight import FULL_TURN_DEG, turn_deg
+from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath, Second
 
 RISE_EVERY_S = 10_800.0
 """Mean seconds between two rises of a satellite near the earth."""

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 from rotator.orbits.chance import Known, has_moved
 from rotator.orbits.rise_chance import RISE_EVERY_S
-from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target
-from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, rounding_deg, turn_deg
+from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target, turn_deg
+from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, rounding_deg
 
 LONGEST_WAIT_S, LONGEST_WAIT_IN_USE_S = 180.0, 1200.0
 """A satellite that rises later is not looked for. Those in use are few, and are looked for earlier: some programs send

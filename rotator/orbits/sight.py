@@ -37,6 +37,11 @@ class Sight:
         return math.degrees(2 * math.asin(math.sqrt(min(1.0, half))))
 
 
+def turn_deg(from_deg: float, to_deg: float) -> float:
+    """The difference of two azimuths, the shorter way round."""
+    return (to_deg - from_deg + FULL_TURN_DEG / 2) % FULL_TURN_DEG - FULL_TURN_DEG / 2
+
+
 class Target(Protocol):
     """A target has a place in the sky of a station at every moment."""
 
@@ -64,7 +69,7 @@ class Motion:
 def motion(target: Target, utc_s: float) -> Motion:
     """Raises NotThere."""
     before, after = target.sight(utc_s - RATE_OVER_S / 2), target.sight(utc_s + RATE_OVER_S / 2)
-    turned_deg = (after.azimuth_deg - before.azimuth_deg + 180.0) % FULL_TURN_DEG - 180.0
+    turned_deg = turn_deg(before.azimuth_deg, after.azimuth_deg)
     return Motion(
         target.sight(utc_s), turned_deg / RATE_OVER_S, (after.elevation_deg - before.elevation_deg) / RATE_OVER_S
     )

@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target
+from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target, turn_deg
 
 CLOCKS_S = tuple(quarter / 4 for quarter in range(-24, 23))
 """Possible leads of the program's clock over UTC: 5 s either way. It may send a direction that is a second old."""
@@ -100,11 +100,6 @@ class SampledPath:
         return found
 
 
-def turn_deg(from_deg: float, to_deg: float) -> float:
-    """The difference of two azimuths, the shorter way round."""
-    return (to_deg - from_deg + 180.0) % FULL_TURN_DEG - 180.0
-
-
 def rounding_deg(orders: Sequence[Heard]) -> float:
     """The rounding of the orders: whole degrees, tenths or hundredths."""
     angles_deg = [angle for each in orders for angle in (each.azimuth_deg, each.elevation_deg)]
@@ -129,12 +124,12 @@ def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: fl
     return tuple(
         clock_s
         for clock_s in CLOCKS_S
-        if are_enough(told := telling(path, orders, clock_s))
-        and explains(path, told, clock_s, rounding=rounding, cuts_deg=either_deg)
+        if are_enough(shown := showing(path, orders, clock_s))
+        and explains(path, shown, clock_s, rounding=rounding, cuts_deg=either_deg)
     )
 
 
-def telling(path: SampledPath, orders: Sequence[Heard], clock_s: float) -> Sequence[Heard]:
+def showing(path: SampledPath, orders: Sequence[Heard], clock_s: float) -> Sequence[Heard]:
     """The orders that show something about this satellite if the program's clock leads by this. Raises NotThere."""
     return [
         each for each in orders if each.elevation_deg > 0 or path.at(each.utc_s + clock_s).elevation_deg > RISING_DEG

@@ -13,7 +13,7 @@ from statistics import median_low
 
 from rotator.orbits.moments import DAY_S
 from rotator.orbits.satellite import Satellite
-from rotator.orbits.sight import NotThere
+from rotator.orbits.sight import NotThere, turn_deg
 
 TOGETHER_KM = 5.0
 """The error of elements that are some days old."""
@@ -59,7 +59,7 @@ def _on_its_orbit_deg(satellite: Satellite, at_s: float) -> float:
 
 def _may_be_one(one: Satellite, other: Satellite) -> bool:
     a, b = one.elements, other.elements
-    node_deg = (a.ascending_node_deg - b.ascending_node_deg + 180.0) % 360.0 - 180.0
+    node_deg = turn_deg(a.ascending_node_deg, b.ascending_node_deg)
     return (
         abs(node_deg) < NEAR_DEG
         and abs(a.inclination_deg - b.inclination_deg) < NEAR_TILT_DEG
