@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rotator.control.sky.flight_plan import Antenna
-from rotator.tracking.next_flight import NextFlight, Now, Wanted, flight_between
+from rotator.tracking.next_flight import LONGEST_S, NextFlight, Now, Wanted, flight_between
 from rotator.tracking.planned import Followed
 from rotator.tracking.schedule import schedule
 
@@ -32,7 +32,7 @@ class WantedOften:
 
 @dataclass(frozen=True, slots=True)
 class Upcoming:
-    """`flight`: None before the antenna sets off."""
+    """`flight`: None before the antenna sets off. Of a long pass it is the next piece, as for a named target."""
 
     set_off_utc_s: float
     flight: NextFlight | None
@@ -49,7 +49,7 @@ def next_followed(followed: tuple[WantedOften, ...], antenna: Antenna, now: Now)
     set_off_s, found, flight = min(flights, key=lambda each: each[0])
     if set_off_s > now.utc_s + SOON_S:
         return Upcoming(set_off_s, None)
-    span_s = flight.begin_s, flight.end_s
+    span_s = flight.begin_s, min(flight.end_s, flight.begin_s + LONGEST_S)
     return Upcoming(
         set_off_s, flight_between(targets[found.name], found, span_s, antenna, now, begin_on=flight.begin_on)
     )
