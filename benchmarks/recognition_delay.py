@@ -3,7 +3,8 @@
 Passes of satellites drawn at random over stations drawn at random, sent in whole degrees by a program whose clock is up
 to 5 s off. The station uses eight of the satellites that the box knows, and the one that is sent is among these, or it
 is not. Rounded, and cut off. The stream begins at the rise; or it begins a minute before, at the horizon, with the
-satellite's azimuth or with that of its rise. Moments count from the rise as the program sees it.
+satellite's azimuth or with that of its rise. Moments count from the rise as the program sees it. Or the stream begins
+in the middle of the pass, and moments count from its first order.
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ class Rise:
     elements: Elements
     site: Site
     aos_s: float
+    los_s: float
     ahead_s: float
 
 
@@ -56,19 +58,21 @@ def rises(dice: random.Random, elements: list[Elements], count: int) -> list[Ris
             one = next(passes(Satellite(each, site), from_s, from_s + 86_400.0, LEAST_DEG), None)
         except NotThere:
             continue
-        if one is not None and one.aos_s is not None and one.aos_s > from_s:
-            found.append(Rise(each, site, one.aos_s, dice.uniform(-CLOCK_S, CLOCK_S)))
+        if one is not None and one.aos_s is not None and one.los_s is not None and one.aos_s > from_s:
+            found.append(Rise(each, site, one.aos_s, one.los_s, dice.uniform(-CLOCK_S, CLOCK_S)))
     return found
 
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """How it rounds, and how often and from when on it sends. `waits`: before the rise it sends the rise's azimuth."""
+    """How it rounds, and how often and from when on it sends. `waits`: before the rise it sends the rise's azimuth.
+    `joins`: it begins after this share of the pass."""
 
     rounds: Callable[[float], int]
     period_s: float = 1.0
     early_s: float = 0.0
     waits: bool = False
+    joins: float = 0.0
 
     def order(self, truth: Satellite, aos_s: float, at_s: float) -> Aim:
         seen = truth.sight(max(at_s, aos_s) if self.waits else at_s)
@@ -76,15 +80,15 @@ class Program:
 
 
 def recognised_after_s(rise: Rise, watch: StreamWatch, program: Program, dice: random.Random) -> tuple[str, float]:
-    """The name that is recognised, and the seconds since the program has seen the rise; empty and infinite: none."""
-    truth, at_s = (
-        Satellite(rise.elements, rise.site),
-        rise.aos_s - program.early_s + dice.uniform(0.0, program.period_s),
-    )
-    while at_s < rise.aos_s + LONGEST_S:
+    """The name that is recognised, and the seconds since the program has seen the rise, or since its first order in the
+    middle; empty and infinite: none."""
+    truth = Satellite(rise.elements, rise.site)
+    since_s = rise.aos_s + program.joins * (rise.los_s - rise.aos_s)
+    at_s = since_s - program.early_s + dice.uniform(0.0, program.period_s)
+    while at_s < min(since_s + LONGEST_S, rise.los_s):
         aim = program.order(truth, rise.aos_s, at_s)
         if isinstance(news := watch.hear(Source("gs232b"), aim, at_s - rise.ahead_s), Recognised):
-            return news.satellite.name, at_s - rise.aos_s
+            return news.satellite.name, at_s - since_s
         at_s += program.period_s + dice.uniform(-UNSTEADY_S, UNSTEADY_S)
     return "", math.inf
 
@@ -104,6 +108,9 @@ def programs() -> Iterator[tuple[str, Program]]:
         for rounding, rounds in ROUNDINGS.items():
             described = f"{EARLY_S:g} s early, {'azimuth of the rise' if waits else 'its azimuth'}, {rounding}"
             yield described, Program(rounds, early_s=EARLY_S, waits=waits)
+    for joins in (0.3, 0.6):
+        for rounding, rounds in ROUNDINGS.items():
+            yield f"joins after {joins:.0%} of the pass, {rounding}", Program(rounds, joins=joins)
 
 
 def main(count: int, seed: int, satellites: int) -> None:

@@ -26,23 +26,22 @@ LOW_DEG, LOW_SHARE = 15.0, 0.5
 """Antennas without a satellite stand below this elevation in this share of the time."""
 FASTEST_DPS = 1.0
 """A target that is no satellite moves at up to this speed, in any direction."""
-LINE_CHANCE, RISING_LINE_CHANCE = 3e-6, 1e-5
-"""Allowed chances, for all satellites together, that a moving stream without a satellite is accepted: anywhere in the
-sky, and where it begins as a satellite rises."""
+LINE_CHANCE = 1e-5
+"""Allowed chance, for all satellites together, that a moving stream without a satellite is accepted: anywhere in the
+sky, and the same again where it rises."""
 STANDING_CHANCE = 1e-4
 """The same for a stream that stands at the horizon from its beginning on."""
 LIKELY_SHARE, MOST_LIKELY = 0.5, 12
-"""The satellites that this station uses have this share of the chance that is allowed at a rise, and all others have
-the rest. So many of them are recognised after eight seconds, rounded or cut off."""
+"""The satellites that this station uses have this share of an allowed chance, and all others have the rest. So many of
+them are recognised after eight seconds, rounded or cut off."""
 
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """The number of possible satellites: in all, of those that the station uses, of those that are up now."""
+    """The number of possible satellites: in all, and of those that the station uses."""
 
     all: int
     likely: int
-    up: int
 
     def share(self, *, likely: bool) -> float:
         """The share of one satellite in an allowed chance. The shares of all satellites add up to 1."""

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 from rotator.orbits.chance import (
     LINE_CHANCE,
-    RISING_LINE_CHANCE,
     STANDING_CHANCE,
     Known,
     has_come_far,
@@ -37,24 +36,26 @@ class Explained:
 
 
 def explained(
-    orders: Sequence[Heard], near: Iterable[SampledPath], known: Known, likely: Collection[str]
+    orders: Sequence[Heard], near: Iterable[SampledPath], known: Known, up: Known, likely: Collection[str]
 ) -> Explained | None:
-    """`near`: the satellites near the orders. `likely`: names of the satellites in use."""
+    """`near`: the satellites near the orders. `known`, `up`: the number of all, and of those that are up now. `likely`:
+    names of the satellites in use."""
     rounding = rounding_deg(orders)
     fits = [Explained(path, clocks_s, rounding) for path in near if (clocks_s := _clocks(path, orders, rounding))]
     if len(fits) != 1:
         return None
     [found] = fits
     with suppress(NotThere):
-        if _is_sure(found, orders, known, likely):
+        is_likely = found.path.satellite.name in likely
+        if _is_sure(found, orders, known.share(likely=is_likely), up.share(likely=is_likely)):
             return found
     return None
 
 
-def _is_sure(found: Explained, orders: Sequence[Heard], known: Known, likely: Collection[str]) -> bool:
-    """Whether the orders show enough of this satellite. Raises NotThere."""
+def _is_sure(found: Explained, orders: Sequence[Heard], share: float, share_up: float) -> bool:
+    """Whether the orders show enough of this satellite. `share`, `share_up`: of the chance that is allowed for all
+    satellites, and for those that are up now. Raises NotThere."""
     path, clocks_s, rounding = found.path, found.clocks_s, found.rounding_deg
-    share = known.share(likely=path.satellite.name in likely)
     # Each clock that explains the orders explains all of these.
     shown = orders if begins_with_rise(path, orders, clocks_s, rounding) else showing(path, orders, clocks_s[0])
     if not has_moved(shown):
@@ -62,7 +63,7 @@ def _is_sure(found: Explained, orders: Sequence[Heard], known: Known, likely: Co
         return standing_chance(path, orders, clocks_s, rounding) <= share * STANDING_CHANCE
     return (
         has_come_far(path, shown, rounding)
-        and _is_no_chance(found, shown, known.up, share)
+        and _is_no_chance(found, shown, share, share_up)
         and has_likely_clock(path, shown, rounding)
     )
 
@@ -74,11 +75,11 @@ def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tupl
         return ()
 
 
-def _is_no_chance(found: Explained, shown: Sequence[Heard], up: int, share: float) -> bool:
+def _is_no_chance(found: Explained, shown: Sequence[Heard], share: float, share_up: float) -> bool:
     """Whether a line at random hardly fits one of all satellites: in the orders' places, or in place and time of their
-    rise. `up`: the number of satellites that are up now; `share`: this one's share at a rise."""
+    rise."""
     path, rounding = found.path, found.rounding_deg
     return (
-        up * line_chance(path, shown, rounding) <= LINE_CHANCE
-        or rising_line_chance(path, shown, found.clocks_s, rounding) <= share * RISING_LINE_CHANCE
+        line_chance(path, shown, rounding) <= share_up * LINE_CHANCE
+        or rising_line_chance(path, shown, found.clocks_s, rounding) <= share * LINE_CHANCE
     )

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from rotator.orbits.stream_fit import UNSTEADY_S, Heard, are_enough
 
-KEPT = 30
+KEPT = 60
 """Orders for which a stream must agree with a path that it meets later, because any line crosses some path."""
 LONGEST_GAP_S = 20.0
 """Seconds: orders further apart are of two streams. Some programs send only when a whole degree has changed."""

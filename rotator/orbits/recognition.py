@@ -128,7 +128,7 @@ class _Listener:
         self._orders = HeardOrders()
         self._near: list[SampledPath] = []
         """Paths of the satellites that may come near the orders before the next sieving."""
-        self._known = Known(0, 0, 0)
+        self._known = self._up = Known(0, 0)
         self._sieved_s = -math.inf
         self._next_s = -math.inf
         """Earliest time of the next fit."""
@@ -159,7 +159,7 @@ class _Listener:
             return None
         if self._orders.full:
             self._next_s = order.utc_s + AGAIN_S
-        found = explained(orders, self._near, self._known, likely)
+        found = explained(orders, self._near, self._known, self._up, likely)
         return self._recognise(found) if found else None
 
     def _sieve(self, order: Heard, satellites: Sequence[Target], likely: Collection[str]) -> None:
@@ -176,7 +176,8 @@ class _Listener:
             in_use = [each for each in satellites if each.name in likely]
             self._soon = soon_rising(order, seen, in_use) if order.elevation_deg == 0 else []
         self._near = [known.get(each) or SampledPath(each) for each in near]
-        self._known = Known(len(satellites), sum(each.name in likely for each in satellites), len(up))
+        self._known = Known(len(satellites), sum(each.name in likely for each in satellites))
+        self._up = Known(len(up), sum(each.name in likely for each, _ in up))
         for path in self._near:
             path.forget_before(self._orders.first_s + CLOCKS_S[0] - 1)
 

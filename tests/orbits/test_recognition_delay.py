@@ -15,6 +15,7 @@ import pytest
 from benchmarks.recognition import catalogue
 from benchmarks.recognition_delay import EARLY_S, ROUNDINGS, Program, recognised_after_s, rises, used
 from rotator.orbits.chance import Known
+from rotator.orbits.heard_orders import KEPT
 from rotator.orbits.recognition import StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.stream_fit import ORDERS
@@ -76,12 +77,28 @@ def test_a_program_that_waits_at_the_horizon_is_recognised_when_its_elevation_le
         assert max(after_s) < 32.0
 
 
+@pytest.mark.search
+@pytest.mark.parametrize("rounding", ROUNDINGS)
+@pytest.mark.parametrize("joins", [0.2, 0.5, 0.8])
+def test_a_program_that_joins_in_the_middle_of_a_pass_is_recognised(rounding: str, joins: float) -> None:
+    """When the satellite has moved by three degrees; three of four before so many orders have come as are kept."""
+    dice = random.Random(f"{rounding} {joins}")
+    elements, after_s = catalogue(dice, 80), []
+    for rise in rises(dice, elements, examples(80)):
+        watch = StreamWatch([Satellite(each, rise.site) for each in elements])
+        name, late_s = recognised_after_s(rise, watch, Program(ROUNDINGS[rounding], joins=joins), dice)
+        assert name in ("", rise.elements.name)
+        after_s.append(late_s)
+    assert statistics.median(after_s) < 32.0
+    assert sorted(after_s)[len(after_s) * 3 // 4] < KEPT
+
+
 @pytest.mark.parametrize("known", [1, 3, 14, 100, 1000])
 @pytest.mark.parametrize("likely", [0, 1, 8, 12])
 def test_the_shares_of_all_satellites_add_up(known: int, likely: int) -> None:
     if likely > known:
         return
-    counted = Known(known, likely, up=1)
+    counted = Known(known, likely)
     total = likely * counted.share(likely=True) + (known - likely) * counted.share(likely=False)
     if 0 < likely < known:
         assert total == pytest.approx(1.0)
