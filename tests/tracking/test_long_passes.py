@@ -12,6 +12,7 @@ from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.passes import passes
 from rotator.tracking.next_flight import LONGEST_S, Now, Wanted
 from rotator.tracking.next_followed import WantedOften, next_followed
+from tests.search import some
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, FEBRUARY_S
 
 SATELLITE = Catalogue((str(ELEMENTS),)).find("rs-44")
@@ -25,7 +26,8 @@ WANTED = {
 }
 
 
-@pytest.mark.parametrize("name", ["moon", "sun", "high", "middle"])
+@pytest.mark.search
+@pytest.mark.parametrize("name", some(["moon", "sun", "high", "middle"]))
 def test_a_followed_pass_of_hours_is_flown_in_pieces_without_a_gap(name: str) -> None:
     wanted = WANTED[name]
     target = wanted.target()
