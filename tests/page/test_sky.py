@@ -126,6 +126,7 @@ def test_a_dragged_priority_changes_the_plan_and_not_the_file(start: Start, visi
         page.locator(".plan td", has_text="for RIVAL")
     ).first.wait_for(timeout=120_000)  # a process behind all other work computes it
     assert names(page) == ["COMING", "RIVAL"]
+    page.get_by_role("heading", name="The plan").evaluate("heading => heading.scrollIntoView()")  # from behind STOP
     lower = page.get_by_role("button", name="RIVAL, place 2 of 2").bounding_box()
     upper = page.get_by_role("button", name="COMING, place 1 of 2").bounding_box()
     assert lower is not None
