@@ -40,8 +40,9 @@ def hanging(path: Path) -> Iterator[None]:
         end = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
         while path.resolve() in writes().values():
             time.sleep(0.001)
-        os.close(end)
+        # Unlinked first: a write that opened the pipe between the two would wait for a reader without end.
         pipe.unlink()
+        os.close(end)
 
 
 def wait_until(seen: Callable[[], object], seconds: float = 20.0) -> None:
