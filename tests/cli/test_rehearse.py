@@ -75,7 +75,7 @@ def test_without_a_pass_it_lists_those_that_are_there(rotator_here: Rotator) -> 
 
 @pytest.mark.parametrize("name", ["south", "[b]"])
 def test_a_terminal_sees_how_far_it_is_and_the_result_stays(start_in_terminal: Rotator, flown: Path, name: str) -> None:
-    """Whatever the pass is called: square brackets are no style."""
+    """Square brackets in the name of a pass are letters, and not a colour of the terminal."""
     flying = start_in_terminal("rehearse", flown.rename(flown.with_stem(name)))
     flying.until(rf"{re.escape(name)} +\d+ of 60 s")
     flying.until(rf"{re.escape(name)}: the box was off by .* s of 60 s")

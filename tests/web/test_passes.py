@@ -56,7 +56,7 @@ def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
 
     async def main() -> None:
         passes = Passes(words, lambda: now_s[0])
-        assert passes.answer() is None, "nobody waits for them"
+        assert passes.answer() is None, "no request waits for them"
         assert await asyncio.gather(computed(passes), computed(passes)) == [{"passes": []}] * 2
         assert counts.read_text() == "x"
         now_s[0] = KEPT_S
