@@ -8,12 +8,6 @@ check_python() {
         die "$PYTHON is not Python 3.11, 3.12 or 3.13; Raspberry Pi OS has one from Bookworm on, or name another: PYTHON=python3.12"
 }
 
-# moteus goes in without what it declares, which is scipy for a tool of its own, 200 MB of it; and these beside it.
-MOTEUS='moteus>=1.1,<2'
-MOTEUS_NEEDS=(importlib-metadata packaging 'python-can>=4.3')
-SPIDEV='spidev>=3.6'
-PAHO='paho-mqtt>=2.1,<3'
-
 find_extras() { # sets extras: what the configuration that is there, or else the profile, needs beside the rest
     extras=$("$PYTHON" - "$CONFIG" "$source_at" "rotator/config/profiles/$profile.toml" <<'END'
 import sys, tomllib, zipfile
@@ -75,17 +69,14 @@ find_version() { # sets version_at: the folder that has these sources already, o
 }
 
 build_version() { # The print goes in last and says that the folder is whole.
-    local from=() more=() log=$scratch/log
+    local from=() log=$scratch/log name locked=()
     half_built=$version_at
     rm -rf "$version_at"
     mkdir -p "$version_at"
     if [ -n "$wheels" ]; then from=(--no-index --find-links "$wheels"); fi
-    case $extras in *moteus*) more+=("${MOTEUS_NEEDS[@]}") ;; esac
-    case $extras in *spidev*) more+=("$SPIDEV") ;; esac
-    case $extras in *paho*) more+=("$PAHO") ;; esac
+    for name in base $extras; do locked+=("${LOCKED[@]}" "$HERE/install/lock/$name.txt"); done
     {
-        make_environment "$version_at" && put_in "${from[@]}" "$source_at" "${more[@]}" &&
-            case $extras in *moteus*) put_in "${from[@]}" --no-deps "$MOTEUS" ;; esac &&
+        make_environment "$version_at" && put_in "${from[@]}" "${locked[@]}" && put_in_program &&
             launcher "$version_at" >"$version_at/bin/rotator" &&
             cp -r "$HERE/install" "$version_at/install"
     } >"$log" 2>&1 || die "$(what_went_wrong "$log"); nothing has been changed"
@@ -94,8 +85,21 @@ build_version() { # The print goes in last and says that the folder is whole.
     half_built=''
 }
 
+# Each package in the version of the list, each file with the hash of the list, and nothing that the list lacks: moteus
+# declares scipy for a tool of its own, 200 MB of it.
+LOCKED=(--no-deps --require-hashes --requirement)
+
 put_in() { # into $version_at, by pip
     "$version_at/bin/pip" install --quiet --no-cache-dir --retries 1 --timeout 20 "$@"
+}
+
+put_in_program() { # the wheel; or from sources, by the build tools that are locked, which do not stay
+    if [ -d "$source_at" ]; then
+        put_in --target "$scratch/build" "${LOCKED[@]}" "$HERE/install/lock/build.txt" &&
+            PYTHONPATH=$scratch/build put_in --no-build-isolation --no-deps "$source_at"
+    else
+        put_in --no-index --no-deps "$source_at"
+    fi
 }
 
 launcher() { # FOLDER: in place of pip's, prints one in which Ctrl-C waits until Python has started, and ends it without a traceback
@@ -118,7 +122,7 @@ make_environment() { # FOLDER. In two steps: in one, venv would keep to itself w
 }
 
 fetch_wheels() { # into $fetch, for $arch and each Python that will do
-    local log=$scratch/log machine platforms=() minor
+    local log=$scratch/log machine platforms=() minor name
     arch=${arch:-$(dpkg --print-architecture)}
     case $arch in
         arm64) machine=aarch64 ;;
@@ -134,12 +138,12 @@ fetch_wheels() { # into $fetch, for $arch and each Python that will do
     echo "  fetches for $arch, Python 3.11, 3.12 and 3.13, into $fetch"
     mkdir "$scratch/wheels"
     {
-        make_environment "$scratch/venv" &&
-            "$scratch/venv/bin/pip" wheel --quiet --retries 1 --timeout 20 --no-deps --wheel-dir "$scratch/wheels" "$HERE"
+        version_at=$scratch/venv && make_environment "$version_at" &&
+            put_in "${LOCKED[@]}" "$HERE/install/lock/build.txt" &&
+            "$version_at/bin/pip" wheel --quiet --no-build-isolation --no-deps --wheel-dir "$scratch/wheels" "$HERE"
     } >"$log" 2>&1 || die "$(what_went_wrong "$log")"
     for minor in 11 12 13; do
-        fetch_for "$minor" "$scratch"/wheels/gs232_rotator-*.whl "${MOTEUS_NEEDS[@]}"
-        fetch_for "$minor" --no-deps "$MOTEUS"
+        for name in base moteus paho; do fetch_for "$minor" "$HERE/install/lock/$name.txt"; done
     done
     mkdir -p "$fetch"
     rm -f "$fetch"/*.whl
@@ -147,9 +151,9 @@ fetch_wheels() { # into $fetch, for $arch and each Python that will do
     echo "All is in $fetch. Carry it over; there: sudo ./install.sh --wheels ."
 }
 
-fetch_for() { # MINOR WHAT...: for Python 3.MINOR on $platforms
+fetch_for() { # MINOR LIST: for Python 3.MINOR on $platforms
     "$scratch/venv/bin/pip" download --quiet --retries 1 --timeout 20 --dest "$scratch/wheels" --only-binary=:all: --implementation cp \
-        --python-version "3.$1" --abi "cp3$1" --abi abi3 --abi none "${platforms[@]}" "${@:2}" >"$log" 2>&1 ||
+        --python-version "3.$1" --abi "cp3$1" --abi abi3 --abi none "${platforms[@]}" "${LOCKED[@]}" "$2" >"$log" 2>&1 ||
         die "$(what_went_wrong "$log")"
 }
 
@@ -158,6 +162,8 @@ what_went_wrong() { # LOG
     missing=$(sed -n 's/.*No matching distribution found for \([^ (;<>=]*\).*/\1/p' "$1" | tail -n 1)
     if grep -q 'No space left on device' "$1"; then
         echo "the disk is full: $ROOM_MB MB are needed in $APP"
+    elif grep -q 'DO NOT MATCH THE HASHES' "$1"; then
+        echo "a package is not the one that this version was tested with: on its way here it was damaged, or replaced"
     elif grep -qE 'ensurepip is not|No module named (venv|ensurepip)' "$1"; then
         echo "Python cannot make a virtual environment: sudo apt install python3-venv"
     elif grep -qE 'NewConnectionError|ConnectTimeout|ReadTimeout|NameResolution|ProxyError|SSLError' "$1"; then

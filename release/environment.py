@@ -16,7 +16,9 @@ from pathlib import Path
 
 from release.source import ReleaseError, Source, run
 
-LOCK = Path(__file__).parent / "packages.txt"
+LOCK = Path(__file__).parent.parent / "install/lock"
+"""A folder with a file for each set of packages."""
+IN_THE_PACKAGE = ("base", "moteus", "paho")
 MINORS = (11, 12, 13)
 MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
 """Debian's name of an architecture, and the one in the names of wheels. 32-bit ARM has no ready-made gpiod."""
@@ -70,7 +72,8 @@ def _fetch(target: Path, arch: str, minor: int, source: Source) -> None:
         *_pip(target),
         *(word for platform in platforms for word in ("--platform", platform)),
         *("--implementation", "cp", "--python-version", f"3.{minor}"),
-        *("--only-binary", ":all:", "--no-deps", "--require-hashes", "--requirement", LOCK),
+        *("--only-binary", ":all:", "--no-deps", "--require-hashes"),
+        *(word for name in IN_THE_PACKAGE for word in ("--requirement", LOCK / f"{name}.txt")),
         epoch_s=source.epoch_s,
     )
     shutil.rmtree(target / "bin", ignore_errors=True)

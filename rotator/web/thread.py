@@ -1,7 +1,7 @@
 """The thread of the page: an event loop of its own, so that no browser delays a link, a stop or the control.
 
 Knows the socket on which the page listens, and how its parts start and end. If the port is taken, it says so and the
-box runs without a page. Does not know the page.
+box runs without a page; a page that fails while it runs begins anew. Does not know the page.
 """
 
 from __future__ import annotations
@@ -31,6 +31,8 @@ PAGE_THREAD = "page"
 JOIN_S = 2.0
 UNSENT_BYTES = 16_384
 KEEP_S = 5.0
+AGAIN_S = 1.0
+"""Seconds until a page that has failed begins anew: asyncio waits so long for files before it takes a connection."""
 WAITING = 128
 """Connections that the kernel keeps until the page takes them."""
 AT_ONCE = 16
@@ -79,15 +81,7 @@ class PageThread:
     def start(self) -> None:
         """Listen, and serve from now on. Raises nothing: without a page the box runs on."""
         try:
-            ipv6 = ":" in self._host
-            self._socket = socket.create_server(
-                (self._host, self._port),
-                family=socket.AF_INET6 if ipv6 else socket.AF_INET,
-                backlog=WAITING,
-                dualstack_ipv6=ipv6 and self._host == "::" and socket.has_dualstack_ipv6(),
-            )
-            # A slow browser must not get a queue of old pictures.
-            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, UNSENT_BYTES)
+            self._socket = self._listening()
         except (OSError, UnicodeError) as fault:
             self.wire.state = "closed"
             log.warning("there is no page: %s", cannot_listen(fault, self._host, self._port, self._rival))
@@ -96,6 +90,19 @@ class PageThread:
         for each in self._kept:
             each.keep()
         self._thread.start()
+
+    def _listening(self) -> socket.socket:
+        """Raises OSError, UnicodeError."""
+        ipv6 = ":" in self._host
+        made = socket.create_server(
+            (self._host, self._port),
+            family=socket.AF_INET6 if ipv6 else socket.AF_INET,
+            backlog=WAITING,
+            dualstack_ipv6=ipv6 and self._host == "::" and socket.has_dualstack_ipv6(),
+        )
+        # A slow browser must not get a queue of old pictures.
+        made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, UNSENT_BYTES)
+        return made
 
     def stop(self) -> None:
         """Returns when the thread has ended."""
@@ -113,17 +120,26 @@ class PageThread:
         self.wire.state = "closed"
 
     def _run(self) -> None:
-        try:
-            asyncio.run(self._serve())
-        except Exception:
-            log.exception("page: it has failed; the box runs on without it")
-            self.wire.state = "closed"
+        said = ""
+        while True:
+            try:
+                self._socket = self._socket or self._listening()
+                with asyncio.Runner() as runner:
+                    self.wire.state = "listening"
+                    runner.run(self._serve(self._socket))
+            except Exception as fault:
+                if repr(fault) != said:
+                    log.exception("page: it has failed, and begins anew; the box runs on without it")
+                said = repr(fault)
+                self.wire.state = "waiting"
             if self._socket is not None:
                 # Otherwise a browser would wait for an answer that never comes.
                 self._socket.close()
+                self._socket = None
+            if self._stopping.wait(AGAIN_S):
+                return
 
-    async def _serve(self) -> None:
-        assert self._socket is not None, "start() comes first"
+    async def _serve(self, place: socket.socket) -> None:
         self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
         say_it_once(self._loop)
         # Some hundred modules. Loaded here, they do not delay the start of the box.
@@ -148,10 +164,10 @@ class PageThread:
         server = runner.server
         assert server is not None, "a runner that is set up has a server"
         listening = await self._loop.create_server(
-            lambda: Connection(connections, server()), sock=self._socket, backlog=AT_ONCE
+            lambda: Connection(connections, server()), sock=place, backlog=AT_ONCE
         )
         # The event loop has made the queue as short as the number it takes at once.
-        self._socket.listen(WAITING)
+        place.listen(WAITING)
         works = [
             connections.watch(),
             live.run(),

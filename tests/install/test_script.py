@@ -12,8 +12,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 
 from release.deb import SCRIPTS
+from release.environment import LOCK
+from release.lock import SETS
 
 PROJECT = Path(__file__).parent.parent.parent
 
@@ -86,13 +89,52 @@ def test_without_one_the_profile_does(tmp_path: Path, profile: str, wanted: str)
     assert extras(tmp_path / "nothing.toml", wheel, profile) == wanted
 
 
-def test_it_puts_in_what_the_project_names() -> None:
-    named = tomllib.loads((PROJECT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    assert sourced('printf "%s\\n" "$MOTEUS" "${MOTEUS_NEEDS[@]}"').splitlines() == named["moteus"]
-    assert sourced('echo "$SPIDEV"').splitlines() == named["spi"]
-    assert sourced('echo "$PAHO"').splitlines() == named["mqtt"]
+@pytest.mark.parametrize("name", [*SETS, "base", "build"])
+def test_it_puts_in_what_the_project_names(name: str) -> None:
+    """After a change of the dependencies: `make lock`."""
+    project = tomllib.loads((PROJECT / "pyproject.toml").read_text())
+    asked = {
+        "base": project["project"]["dependencies"],
+        "build": project["build-system"]["requires"],
+        **{each: project["project"]["optional-dependencies"][extra] for each, extra in SETS.items()},
+    }
+    locked = dict(re.findall(r"^([\w.-]+)==([\w.]+)", (LOCK / f"{name}.txt").read_text(), re.MULTILINE))
+    for requirement in map(Requirement, asked[name]):
+        assert requirement.specifier.contains(locked[requirement.name])
 
 
-def test_moteus_comes_without_its_own_dependencies() -> None:
-    script = (PROJECT / "install/version.sh").read_text()
-    assert len(re.findall(r'--no-deps "\$MOTEUS"', script)) == script.count('"$MOTEUS"') == 2
+def test_pip_takes_nothing_from_the_network_but_what_is_locked_with_its_hash() -> None:
+    """moteus so comes without its own dependencies. The program itself is here already."""
+    script = (PROJECT / "install/version.sh").read_text().replace("\\\n", " ")
+    assert "LOCKED=(--no-deps --require-hashes --requirement)\n" in script
+    calls = re.findall(r"(?:put_in|bin/pip\" (?:wheel|download)) .*", script)
+    assert len(calls) == 7
+    assert all("LOCKED[@]" in call or "locked[@]" in call or "--no-deps" in call for call in calls)
+
+
+@pytest.mark.parametrize("name", ["base", "moteus"])
+def test_a_package_with_another_hash_is_refused(tmp_path: Path, name: str) -> None:
+    """A wheel that has been replaced on its way; told in a sentence, and nothing of it is put in."""
+    package, version = re.findall(r"^([\w.-]+)==([\w.]+) ", (LOCK / f"{name}.txt").read_text(), re.MULTILINE)[0]
+    package = package.replace("-", "_")
+    folder = f"{package}-{version}.dist-info"
+    with zipfile.ZipFile(tmp_path / f"{package}-{version}-py3-none-any.whl", "w") as packed:
+        packed.writestr(f"{folder}/METADATA", f"Metadata-Version: 2.1\nName: {package}\nVersion: {version}\n")
+        packed.writestr(
+            f"{folder}/WHEEL", "Wheel-Version: 1.0\nGenerator: x\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
+        )
+        packed.writestr(f"{folder}/RECORD", "")
+    said = sourced(
+        f'"$PYTHON" -m pip --isolated install --quiet --dry-run --target {tmp_path}/in --no-index '
+        f"--find-links {tmp_path} "
+        f'"${{LOCKED[@]}}" install/lock/{name}.txt >{tmp_path}/log 2>&1 || what_went_wrong {tmp_path}/log',
+        PYTHON=sys.executable,
+        fetch="",
+        wheels="",
+        ROOM_MB=1,
+        APP="/opt",
+    )
+    assert (
+        said
+        == "a package is not the one that this version was tested with: on its way here it was damaged, or replaced"
+    )

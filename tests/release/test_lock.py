@@ -13,7 +13,8 @@ from release.environment import LOCK
 from release.lock import NOT_NEEDED
 from tests.release.conftest import PROJECT
 
-LINES = re.findall(r"^([\w.-]+)==([\w.]+)(.*(?:\n    .*)*)", LOCK.read_text(encoding="utf-8"), re.MULTILINE)
+TEXT = "".join(path.read_text(encoding="utf-8") for path in sorted(LOCK.glob("*.txt")))
+LINES = re.findall(r"^([\w.-]+)==([\w.]+)(.*(?:\n    .*)*)", TEXT, re.MULTILINE)
 LOCKED = {canonicalize_name(name): version for name, version, _ in LINES}
 TABLE = tomllib.loads((PROJECT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
@@ -28,7 +29,7 @@ def test_what_the_program_asks_for_is_locked(asked: str) -> None:
 def test_each_has_the_hashes_of_its_files_and_no_address() -> None:
     assert len(LINES) > 15
     assert all(rest.count("--hash=sha256:") >= 1 for _, _, rest in LINES)
-    assert "://" not in LOCK.read_text(encoding="utf-8")
+    assert "://" not in TEXT
 
 
 def test_what_moteus_declares_for_other_tools_stays_out() -> None:

@@ -57,6 +57,43 @@ def test_a_foreign_page_moves_nothing_even_in_a_paired_browser(page_box: Start, 
     asyncio.run(main())
 
 
+@pytest.mark.parametrize("path", ["/api/status", "/api/live", "/api/stop"])
+def test_a_request_with_several_host_headers_is_refused(page_box: Start, path: str) -> None:
+    """The one who stands between would read one of them, and the page another."""
+
+    async def main() -> None:
+        async with page_box() as box:
+            good = box.url.removeprefix("http://")
+            for hosts in ((good, "evil.example"), ("evil.example", good), (good, good)):
+                reader, writer = await asyncio.open_connection(*_place(box))
+                named = "".join(f"Host: {host}\r\n" for host in hosts)
+                writer.write(f"POST {path} HTTP/1.1\r\n{named}Content-Length: 0\r\n\r\n".encode())
+                assert (await reader.readline()).split()[1] == b"400"
+                writer.close()
+            assert box.status.latched == ""
+
+    asyncio.run(main())
+
+
+def test_no_request_hides_behind_the_upgrade_to_a_websocket(page_box: Start) -> None:
+    """What follows an upgrade that is refused, or comes with it, is no second request."""
+
+    async def main() -> None:
+        async with page_box() as box:
+            host = box.url.removeprefix("http://")
+            hidden = f"POST /api/stop HTTP/1.1\r\nHost: {host}\r\nContent-Length: 0\r\n\r\n"
+            for upgrade in (UPGRADE, UPGRADE.replace("GET /api/live", "GET /api/status")):
+                reader, writer = await asyncio.open_connection(*_place(box))
+                body = f"Content-Length: {len(hidden)}\r\n\r\n"
+                writer.write((upgrade.format(host=host).removesuffix("\r\n") + body + hidden).encode())
+                assert (await reader.readline()).split()[1] in (b"101", b"200", b"400")
+                writer.close()
+            async with box.http.get(f"{box.url}/api/status"):
+                assert box.status.latched == ""
+
+    asyncio.run(main())
+
+
 def test_a_replayed_cookie_of_a_revoked_browser_moves_nothing(page_box: Start) -> None:
     async def main() -> None:
         async with page_box() as box:
