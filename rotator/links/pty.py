@@ -73,7 +73,7 @@ class PtyLink:
                 begun = await self._conversation(self._terminal, begun)
                 if not self._terminal.clear():
                     self._remove()
-                    self._make()
+                    await self._make_again()
         finally:
             self.close()
 
@@ -149,6 +149,20 @@ class PtyLink:
         self._path.replace(aside)
         log.warning("%s: %s was a plain file with orders, written while no box was running; it is now %s",
                     self.wire.name, self._path, aside)  # fmt: skip
+
+    async def _make_again(self) -> None:
+        """As `_make`, as soon as the system lets it: for a moment it may have no file or terminal left."""
+        told = False
+        while True:
+            try:
+                return self._make()
+            except OSError as fault:
+                self._remove()
+                if not told:
+                    log.warning("%s: %s has to wait: %s", self.wire.name, self._path, fault.strerror)
+                told = True
+                self.wire.state = "waiting"
+                await asyncio.sleep(LOOK_EVERY_S)
 
     def _make(self) -> None:
         """A terminal, and the symlink to it. Raises OSError."""

@@ -88,9 +88,9 @@ class Autosave:
         if self._path is None:
             log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
             return True
-        from rotator.config.save import save_table  # noqa: PLC0415 - loads tomlkit, which a start can do without
-
         try:
+            from rotator.config.save import save_table  # noqa: PLC0415 - loads tomlkit, which a start can do without
+
             save_table(self._path, axis.value, calibration=self._offsets.own_scale(axis, points))
         except (OSError, ConfigError) as fault:
             if self._troubles.get(axis) != str(fault):

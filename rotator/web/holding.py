@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from itertools import count
+from secrets import randbits
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Jog
@@ -17,17 +17,20 @@ from rotator.protocols.panel_words import TURNS
 LEASE_S = 0.45
 """Seconds after the sending of a picture in which a sign that names it lets a motor turn."""
 
+NUMBER_BITS = 53
+"""A number of JavaScript holds as many without rounding."""
+
 
 class Pictures:
-    """The times at which the latest pictures were sent, by number."""
+    """The times at which the latest pictures were sent, by number. Numbers are drawn by lot: who has not seen a picture
+    cannot name it."""
 
     def __init__(self) -> None:
-        self._numbers = count(1)
         self._sent: deque[tuple[int, float]] = deque()
 
     def next(self, now_s: float) -> int:
         """The number of a picture that is sent now."""
-        number = next(self._numbers)
+        number = randbits(NUMBER_BITS)
         # Removed by age: many new browsers, each with a first picture, must not push out pictures that still count.
         while self._sent and now_s - self._sent[0][1] > LEASE_S:
             self._sent.popleft()

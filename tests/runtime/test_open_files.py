@@ -5,13 +5,15 @@ from __future__ import annotations
 import asyncio
 import errno
 import logging
+import os
 import resource
+import select
 import socket
 import subprocess
 import sys
 import time
 import urllib.request
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 import pytest
@@ -68,6 +70,55 @@ def test_a_crowd_larger_than_the_limit_fills_no_log_and_keeps_no_client_from_a_s
     assert "a new connection has to wait: Too many open files" in errors.read_text()
     assert "Traceback" not in errors.read_text()
     assert len(errors.read_text().splitlines()) < 10
+
+
+def test_what_finds_no_file_for_a_moment_comes_back(tmp_path: Path) -> None:
+    """The limit sinks below what is open, and rises again. Meanwhile the program that is connected is served; what
+    ended for lack of a file, the page and the terminal that its program has left, works as before."""
+    link, page = free_port(), free_port()
+    file = tmp_path / "r.toml"
+    links = f'[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{link}"\n[[link]]\nprotocol = "gs232b"\npty = "gs"\n'
+    file.write_text(file_with_page(tmp_path, page, links))
+    errors = tmp_path / "errors"
+    with errors.open("wb") as said, ExitStack() as opened:
+        box = opened.enter_context(
+            subprocess.Popen(
+                [sys.executable, "-m", "rotator", "run", "--plain", "--config", str(file)],
+                stdout=subprocess.PIPE,
+                stderr=said,
+                cwd=tmp_path,
+            )
+        )
+        opened.callback(box.terminate)
+        assert box.stdout is not None
+        assert greets(box.stdout)
+        program = opened.enter_context(socket.create_connection(("127.0.0.1", link), PATIENCE_S))
+        with urllib.request.urlopen(f"http://127.0.0.1:{page}/api/me", timeout=PATIENCE_S) as loaded:
+            assert loaded.status == 200
+        limit = resource.prlimit(box.pid, resource.RLIMIT_NOFILE)
+        resource.prlimit(box.pid, resource.RLIMIT_NOFILE, (3, limit[1]))
+        # A program that leaves with an answer unread: the terminal is made anew.
+        terminal = os.open(tmp_path / "gs", os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+        os.write(terminal, b"C2\r" * 10)
+        assert select.select([terminal], [], [], PATIENCE_S)[0]
+        os.close(terminal)
+        give_up_s = time.monotonic() + PATIENCE_S
+        while not ("gs has to wait" in errors.read_text() and "page: it has failed" in errors.read_text()):
+            assert time.monotonic() < give_up_s, errors.read_text()
+            assert ask(program, b"p\n")
+        resource.prlimit(box.pid, resource.RLIMIT_NOFILE, limit)
+        answers: set[str] = set()
+        while answers != {"page", "link", "pty"}:
+            assert time.monotonic() < give_up_s, answers
+            with suppress(OSError), urllib.request.urlopen(f"http://127.0.0.1:{page}/api/me", timeout=PATIENCE_S):
+                answers.add("page")
+            with suppress(OSError), socket.create_connection(("127.0.0.1", link), PATIENCE_S) as another:
+                answers |= {"link"} if ask(another, b"p\n") else set()
+            if (tmp_path / "gs").exists():
+                answers.add("pty")
+        assert ask(program, b"S\n") == b"RPRT 0\n"
+    assert box.returncode == 0
+    assert len([row for row in errors.read_text().splitlines() if " E " in row or " W " in row]) < 10
 
 
 @pytest.mark.parametrize("number", NO_MORE)
