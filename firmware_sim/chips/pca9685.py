@@ -9,7 +9,7 @@ drain) and the switch to an external clock can be written and read, and have no 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from firmware_sim.buses.i2c import Nack
 
@@ -63,6 +63,11 @@ class Pca9685:
 
     def register(self, register: int) -> int:
         return self._registers[register]
+
+    def put_back(self, registers: Mapping[int, int]) -> None:
+        """What the registers held when the last program ended: the chip has had its supply since. Empty: it had not."""
+        for number, value in registers.items():
+            self._registers[number] = value
 
     def period_s(self) -> float:
         return (self._registers[PRE_SCALE] + 1) * STEPS / self.osc_hz

@@ -14,6 +14,8 @@ from firmware_sim.faults import SimFault
 from firmware_sim.parts.servo import SimServo, SimServoSpec
 from firmware_sim.rotors.rotor import SimRotor
 
+REGISTERS = (*range(0x46), 0xFE)
+"""Of the board: its modes, its outputs and its frequency."""
 WIND_DPS = 10.0
 """Fault `wind-turns`: the speed at which the wind turns a servo without torque."""
 
@@ -67,6 +69,14 @@ class SimServoRotor(SimRotor):
         """As `antenna`, without the jitter of a servo that holds."""
         with self._lock:
             return self.azimuth.shaft_deg(), self.elevation.shaft_deg()
+
+    def kept(self) -> dict[str, float]:
+        """The board's registers, while it has supply: it goes on with its pulses when the program has ended."""
+        return {f"board_{number}": value for number in REGISTERS if (value := self.board.register(number))}
+
+    def put_back(self, kept: Mapping[str, float]) -> None:
+        self._advance()
+        self.board.put_back({number: int(kept.get(f"board_{number}", 0)) for number in REGISTERS} if kept else {})
 
     def _pulse_us(self, channel: int) -> float | None:
         return self.board.pulse_us(channel) if self._enabled else None

@@ -76,6 +76,18 @@ class Pca9685:
         if mode != AUTO_INCREMENT or self._read(PRE_SCALE) != self._prescale:
             raise HardwareError(f"{self}: it has been reset, its outputs are off; check its 3.3 V supply")
 
+    @property
+    def goes_on(self) -> bool:
+        """Whether it runs as an earlier program has set it up: its outputs have gone on. Raises HardwareError."""
+        return self._read(MODE1) == AUTO_INCREMENT and self._read(PRE_SCALE) == self._prescale
+
+    def width_us(self, channel: int) -> float | None:
+        """The width of the pulse that it makes; None: no pulse. Raises HardwareError."""
+        register = bytes([LED0_ON_L + 4 * channel])
+        on_l, on_h, off_l, off_h = self._bus.write_read(self._address, register, 4)
+        ticks = (off_l | off_h << 8) - (on_l | on_h << 8)
+        return ticks * self.tick_us if 0 < ticks < TICKS else None
+
     def pulse(self, channel: int, width_us: float) -> None:
         """A pulse of this width in each period. Raises HardwareError: no answer, or an impossible width."""
         ticks = round(width_us / self.tick_us)

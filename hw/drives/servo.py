@@ -2,7 +2,8 @@
 
 Knows leases, the enable line, and how a board that has lost its supply is set up again. A servo moves only while the
 guard calls `enforce`: when the program hangs, each servo holds. Does not know where a servo really stands, because a
-servo reports nothing. So the first pulse makes it jump, and a stop during that jump takes its pulses away.
+servo reports nothing. So the first pulse makes it jump, and a stop during that jump takes its pulses away. A board that
+kept its supply while no program ran still knows its last pulses: there is no jump.
 """
 
 from __future__ import annotations
@@ -59,6 +60,8 @@ class ServoDrive:
         self._wire = threading.Lock()
         """Held while the bus is in use. `off` and `hold` do not take it, so that a stop never waits for the bus."""
         self._started = False
+        self._begun = False
+        """The board was set up, or taken over as it was."""
         self._check_s = clock()
         self._failure: str | None = None
 
@@ -167,10 +170,24 @@ class ServoDrive:
     def _start(self) -> None:
         if self._enable:
             self._enable.set({ENABLE: False})
-        self._chip.start()
+        # With an enable line the servos have been limp, and stay so until the first order.
+        holds = not self._begun and self._take_over() and self._enable is None
+        if not holds:
+            self._chip.start()
         with self._changed:
-            self._started, self._failure = True, None
+            self._started, self._begun, self._failure = True, True, None
             self._check_s = self._clock() + CHECK_S
+
+    def _take_over(self) -> bool:
+        """Take the angles from the pulses that the board has gone on to make. False: it makes none."""
+        if not self._chip.goes_on:
+            return False
+        widths = {axis: self._chip.width_us(axis.spec.channel) for axis in self._axes.values()}
+        with self._changed:
+            for axis, width_us in widths.items():
+                if width_us is not None:
+                    axis.found(axis.scale.angle_deg(width_us), holds=self._enable is None)
+        return any(widths.values())
 
     def _step(self, axis: ServoAxis, now_s: float) -> None:
         with self._changed:

@@ -59,6 +59,13 @@ class ServoAxis:
         self._jump_s = self._longest_jump_s
         """How long the jump may still take. Short presses add up: the servo goes on from where it went limp."""
 
+    def found(self, angle_deg: float, *, holds: bool) -> None:
+        """The board's last pulse was for this angle. `holds`: it still makes that pulse, and the servo stands there."""
+        self.angle_deg = self.scale.nearest_deg(angle_deg)
+        self._jump_s = self._longest_jump_s
+        if holds:
+            self.pulsing, self.settled_s = True, float("-inf")
+
     def aim(self, angle_deg: float, rate_dps: float, now_s: float, until_s: float) -> None:
         """Raises HardwareError for an angle outside the calibration table."""
         self.scale.check(angle_deg)

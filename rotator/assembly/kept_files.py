@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_offsets, own_points
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
-from rotator.store import relays
+from rotator.store import counts, relays
+from rotator.store.counts import CountsFile
 from rotator.store.latch import FILE_NAME as LATCH_NAME
 from rotator.store.latch import LatchFile
 from rotator.store.learnt import LearntFile
@@ -44,6 +45,19 @@ def build_tries_file(config: Config, memory: Path | None = None) -> TriesFile | 
 
 def build_latch_file(config: Config, memory: Path | None = None) -> LatchFile:
     return LatchFile(Path(config.state.path).with_name(LATCH_NAME), memory)
+
+
+def build_modelled_file(config: Config) -> CountsFile | None:
+    """The file with the angles of the axes that only a model knows: the next run begins with them. None: there are
+    none, or the rotor does not outlive the program. An angle that was kept with other settings is not used."""
+    modelled = [axis for axis in Axis if config.angle(axis).source is AngleSource.MODELLED]
+    if not modelled or not config.keeps_files:
+        return None
+    tables = config.servo if config.rotor.type == "servo" else config.digipot
+    settings = {
+        axis: {"hardware": config.rotor.hardware, **tables.of(axis).model_dump(mode="json")} for axis in modelled
+    }
+    return CountsFile(Path(config.state.path).with_name(counts.FILE_NAME), settings)
 
 
 def build_learnt(config: Config) -> LearntFile:

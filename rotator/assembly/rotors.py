@@ -12,11 +12,13 @@ from pathlib import Path
 from hw.ports import AngleSensor, Axis, LeaseWatch
 from rotator.assembly.adc import Converter, open_adc
 from rotator.assembly.board import Board
+from rotator.assembly.kept_files import build_modelled_file
 from rotator.assembly.panel import limit_switches
 from rotator.assembly.sensors import sensor_chip
 from rotator.assembly.settings import build_offsets
 from rotator.config.model import Config
 from rotator.rotors.counts_writer import Later, at_once
+from rotator.store.counts import NEVER, Standing
 
 
 class Assembly:
@@ -55,11 +57,18 @@ class Assembly:
         return {axis: sensor or (own or {})[axis] for axis, sensor in named.items()}
 
     def first_deg(self, axis: Axis, configured_deg: float) -> float:
-        """The assumed start angle of an axis without feedback: that of the file.
+        """The assumed start angle of an axis without feedback: where the last run left it; at first that of the file.
 
         A simulation that begins anew starts at the true one.
         """
-        return configured_deg if self.config.keeps_files else self.start_deg(axis)
+        if not self.config.keeps_files:
+            return self.start_deg(axis)
+        file = build_modelled_file(self.config)
+        place = file.load().get(axis, NEVER) if file else NEVER
+        low_deg, high_deg = self.config.kind.reach_deg(axis)
+        if place.standing is not Standing.KNOWN or low_deg is None or high_deg is None:
+            return configured_deg
+        return min(max(place.angle_deg, low_deg), high_deg)
 
     def _named(self, axis: Axis) -> AngleSensor | None:
         config, board = self.config, self.board

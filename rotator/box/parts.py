@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from hw.ports import Axis
 from rotator.assembly.fetching import build_elements_server, build_fetching
 from rotator.assembly.hands import hands
+from rotator.assembly.kept_files import build_modelled_file
 from rotator.assembly.links import RunningLink, build_links
 from rotator.assembly.settings import build_mount, build_offsets
 from rotator.assembly.sky import build_sky
@@ -164,7 +165,7 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         remembered=before,
         loop=loop,
         engine=Engine(loop, station.rotor),
-        autosave=Autosave(loop, path, build_offsets(config), before.learnt),
+        autosave=Autosave(loop, path, build_offsets(config), before.learnt, build_modelled_file(config)),
         tracking=tracking,
         fetching=fetching,
         elements_server=elements_server,

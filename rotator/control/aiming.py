@@ -157,7 +157,9 @@ class Aiming:
 
     def nudge(self, axis: Axis, offset_deg: float) -> None:
         """Shift all orders for this axis by this angle from now on."""
-        self._nudges.set(axis, offset_deg)
+        by_deg = self._nudges.set(axis, offset_deg)
+        if self._asked is not None:
+            self._pointing.shift(*((by_deg, 0.0) if axis is Axis.AZIMUTH else (0.0, by_deg)))
 
     def clear_nudges(self) -> None:
         self._nudges.clear()

@@ -110,6 +110,7 @@ class Movements:
         """Shift all orders from now on. `at_once`: the target in force too. Raises Refused."""
         self._aiming.nudge(axis, offset_deg)
         if at_once and self._aiming.repeat(now_s):
+            self._axes[axis].nudged()
             self._idle.ordered(now_s)
 
     def clear_nudges(self) -> None:

@@ -203,7 +203,8 @@ class Panel:
             "stop": self._button.open or bool(status.latched),
             "azimuth_pulse": Axis.AZIMUTH in inputs.pulses,
             "elevation_pulse": Axis.ELEVATION in inputs.pulses,
-            "switch": settling or self._nudged or self._jogging is not None,
+            # Out at the end of the calibration: the axes are homed, and the box is obeyed as the mode says.
+            "switch": settling or self._nudged or self._jogging is not None or self._calibration is not None,
         }
 
     def _meters(self, status: Status) -> dict[Axis, float]:

@@ -27,7 +27,7 @@ from rotator.store.hanging import HANGS, Hanging
 log = logging.getLogger(__name__)
 
 KEEP_EVERY_S = 0.5
-"""Seconds between two reports to the counts file: a resting axis, or a lost count. The file decides when to write."""
+"""Seconds between two further reports to the counts file: of a resting axis, or a lost count."""
 
 
 class CountedAxis:
@@ -172,7 +172,7 @@ class CountedAxis:
             return
         if self._counter.at_rest and (self._moved or now_s - self._reported_s >= KEEP_EVERY_S):
             self._reported_s, self._moved = now_s, False
-            self._counts_writer.rests(now_s, self._axis, angle_deg)
+            self._counts_writer.rests(self._axis, angle_deg)
 
 
 class CountedRotor(RelayRotor):

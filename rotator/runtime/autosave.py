@@ -1,4 +1,4 @@
-"""Saves while the box runs: calibrations taken over a link, and learnt values of the motors.
+"""Saves while the box runs: calibrations taken over a link, learnt values of the motors, and modelled angles.
 
 Knows when to save, and in which file. Other files do the writing. A failed write is logged, and never stops the box.
 What must outlive a killed program has threads of its own: `latch_thread`.
@@ -12,11 +12,12 @@ import threading
 from functools import partial
 from pathlib import Path
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.config.load import ConfigError
 from rotator.control.sky.offsets import Offsets
 from rotator.runtime.aside import aside
 from rotator.runtime.loop import ControlLoop
+from rotator.store.counts import CountsFile
 from rotator.store.hanging import within
 from rotator.store.learnt import LearntFile, Motors
 
@@ -29,15 +30,26 @@ CALIBRATIONS_EVERY_S = 1.0
 CALIBRATIONS_AGAIN_S = 10.0
 """The pause after a calibration that could not be saved."""
 LEARNT_EVERY_S = 600.0
+MODELLED_EVERY_S = 10.0
+"""While it moves; an angle at rest is saved within a second."""
 
 
 class Autosave:
-    """`path`: the configuration file, if there is one. `run` while the box runs, `close` when its loop has ended.
+    """`path`: the configuration file, if there is one. `modelled`: the file of the angles that only a model knows.
+
+    `run` while the box runs, `close` when its loop has ended.
 
     Raises nothing: a file that cannot be written is in the log.
     """
 
-    def __init__(self, loop: ControlLoop, path: Path | None, offsets: Offsets, learnt: LearntFile) -> None:
+    def __init__(
+        self,
+        loop: ControlLoop,
+        path: Path | None,
+        offsets: Offsets,
+        learnt: LearntFile,
+        modelled: CountsFile | None = None,
+    ) -> None:
         self._loop = loop
         self._path = path
         self._offsets = offsets
@@ -48,6 +60,10 @@ class Autosave:
         self._troubles: dict[Axis, str] = {}
         """Why the latest calibration of an axis could not be saved."""
         learnt.note(self._motors())
+        self._modelled = modelled
+        kept = modelled.load() if modelled else {}
+        self._kept_deg = {axis: place.angle_deg for axis, place in kept.items()}
+        """The angle of each modelled axis in its file, on the rotor's own scale."""
 
     async def run(self) -> None:
         """Save again and again, until cancelled."""
@@ -57,6 +73,9 @@ class Autosave:
             rounds += 1
             if not self._troubles or rounds * CALIBRATIONS_EVERY_S % CALIBRATIONS_AGAIN_S == 0:
                 await aside(self.keep_calibrations, AUTOSAVE_THREAD)
+            moving = rounds * CALIBRATIONS_EVERY_S % MODELLED_EVERY_S == 0
+            if self._modelled_deg(moving=moving).items() - self._kept_deg.items():
+                await aside(partial(self.keep_modelled, moving=moving), AUTOSAVE_THREAD)
             if rounds * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
                 await aside(partial(self._keep_learnt, ending=False), AUTOSAVE_THREAD)
 
@@ -67,6 +86,7 @@ class Autosave:
     def _close(self) -> None:
         self.keep_calibrations()
         self._keep_learnt(ending=True)
+        self.keep_modelled(moving=True)
 
     def keep_calibrations(self) -> None:
         """Save each calibration that was taken over a link (O, F) and is not saved yet."""
@@ -76,6 +96,23 @@ class Autosave:
     def _keep_learnt(self, *, ending: bool) -> None:
         with self._saving:
             self._learnt.save(self._motors(), ending=ending)
+
+    def keep_modelled(self, *, moving: bool) -> None:
+        """Save the angles that only a model knows, where they are new. `moving`: also of an axis that moves."""
+        with self._saving:
+            for axis, angle_deg in self._modelled_deg(moving=moving).items():
+                if self._modelled and angle_deg != self._kept_deg.get(axis):
+                    self._modelled.rest(axis, angle_deg)
+                    self._kept_deg[axis] = angle_deg
+
+    def _modelled_deg(self, *, moving: bool) -> dict[Axis, float]:
+        """The angles that only a model knows, in tenths of a degree. `moving`: also of an axis that moves."""
+        status = {axis: self._loop.status.axis(axis) for axis in Axis if self._modelled}
+        return {
+            axis: round(each.angle_deg - self._offsets.deg(axis), 1)
+            for axis, each in status.items()
+            if each.source is AngleSource.MODELLED and each.angle_deg is not None and (moving or not each.moving)
+        }
 
     def _keep_calibrations(self) -> None:
         for axis in Axis:

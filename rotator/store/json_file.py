@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from rotator.store.forms import Form, LaterFormError
-from rotator.store.whole import write_whole
+from rotator.store.whole import write_block, write_whole
 
 log = logging.getLogger(__name__)
 
@@ -57,13 +57,15 @@ def number(value: object, name: str, least: float, most: float) -> float:
 
 
 class JsonFile:
-    """`description`: of the content, in a few words, for the log.
+    """`description`: of the content, in a few words, for the log. `one_block`: it is written often, in place, and has a
+    check sum.
 
     `load` and `save` raise nothing: their failures go to the log.
     """
 
-    def __init__(self, path: Path, form: Form, description: str) -> None:
+    def __init__(self, path: Path, form: Form, description: str, *, one_block: bool = False) -> None:
         self.path = path
+        self._write = write_block if one_block else write_whole
         self.trouble = ""
         """The reason of the last failed write; empty after a good one."""
         self._form = form
@@ -95,7 +97,12 @@ class JsonFile:
     def changed(self) -> bool:
         """Whether another program or a person has changed, emptied or deleted the file since. What the box knows stays,
         and is to be written again."""
-        return not self.trouble and self._mark() != self._seen
+        return not self.trouble and self.touched
+
+    @property
+    def touched(self) -> bool:
+        """As `changed`, also by a write of the box that failed halfway."""
+        return self._mark() != self._seen
 
     def _mark(self) -> tuple[int, ...] | None:
         try:
@@ -120,7 +127,7 @@ class JsonFile:
             if self._later:
                 raise OSError(self._later)
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(self.path, encode(self._form, content))
+            self._write(self.path, encode(self._form, content))
             self._seen = self._mark()
         except OSError as fault:
             if str(fault) != self.trouble:

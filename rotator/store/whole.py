@@ -1,4 +1,5 @@
 """Replaces a file as a whole: after a power failure at any time the file has the old content or the new, never a part.
+Or, for a small file that is written at each move, overwrites its one block: a seventh of the wear.
 
 Knows files and folders. Does not know what a file contains.
 """
@@ -13,6 +14,8 @@ from rotator.store.hanging import under_way
 
 NEW = ".new"
 """The ending of the name under which the new content is written first."""
+BLOCK = 4096
+"""Bytes: a block of the card's file system, the least that it writes."""
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
@@ -24,6 +27,25 @@ def write_whole(path: Path, content: str | bytes) -> None:
     """
     with under_way(path):
         _write_whole(path, content)
+
+
+def write_block(path: Path, content: str) -> None:
+    """Overwrite the file's one block, filled up with blanks: neither folder nor file system has anything to note.
+
+    After a power failure in the middle the block may be a mixture: the content must have a check sum. A file that is no
+    such block yet, or whose replacement was not finished, is replaced as a whole. Raises OSError.
+    """
+    block = content.encode("utf-8").ljust(BLOCK)
+    with under_way(path):
+        path = path.resolve()
+        unfinished = os.path.lexists(path.with_name(path.name + NEW))
+        if unfinished or not path.is_file() or path.stat().st_size != BLOCK or len(block) != BLOCK:
+            _write_whole(path, block)
+            return
+        with path.open("r+b") as file:
+            file.write(block)
+            file.flush()
+            os.fdatasync(file.fileno())
 
 
 def _write_whole(path: Path, content: str | bytes) -> None:

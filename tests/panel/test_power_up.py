@@ -19,10 +19,12 @@ def test_calibration_reads_the_knobs_and_homes_one_axis_a_step() -> None:
     assert person.act.full_scales is None
     assert person.waits(1.5, mode_bits=PARK) == [Release(), Home(AZ)]
     assert person.waits(60.0, pulses=frozenset({AZ})) == []
-    assert "azimuth_pulse" in person.lit()
+    assert {"azimuth_pulse", "switch"} <= person.lit()
     assert person.waits(1.5, mode_bits=AUTO) == [Release(), Home(EL)]
     assert person.waits(60.0) == []
+    assert "switch" in person.lit(), "the calibration is not over"
     assert person.waits(1.5, mode_bits=JOG) == [Release(), SetMode(Mode.JOG)]
+    assert person.lit() == {"jog"}, "it is"
     assert person.waits(0.1, jog=CW) == [Jog(AZ, PLUS, 0.3)]
 
 

@@ -18,8 +18,6 @@ from tests.search import WHOLE
 AZ = Axis.AZIMUTH
 CAMS = {AZ: {"spacing_deg": 5.0}}
 BEGIN_DEG, MOVE_DEG, PLACED_DEG = 100.0, 90.0, 7.0
-REST_S = 25.0
-"""From one report of a resting axis to the next: long enough for an angle to be written."""
 LONGEST = 6 if WHOLE else 5
 
 
@@ -32,7 +30,6 @@ class Antenna:
         file.home(AZ, BEGIN_DEG)
         self.jobs: list[Callable[[], None]] = []
         self._writer = CountsWriter(file, self.jobs.append)
-        self._now_s = 0.0
         self.truth_deg = BEGIN_DEG
         self.turning = self.lost = False
         self.reported = True
@@ -72,12 +69,11 @@ class Antenna:
 
     def _rest(self) -> None:
         """As the sensors' thread reports an axis that stands, or one whose count is in doubt."""
-        self._now_s += REST_S
         if self.lost:
             self._writer.lost(AZ)
         else:
             self.reported = True
-            self._writer.rests(self._now_s, AZ, self.truth_deg)
+            self._writer.rests(AZ, self.truth_deg)
 
     @property
     def _in_the_way(self) -> Path:

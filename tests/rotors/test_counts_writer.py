@@ -85,7 +85,7 @@ def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> Non
     counts_writer = CountsWriter(known(path), disk)
     counts_writer.may_start(AZ)
     disk.work()
-    counts_writer.rests(50.0, AZ, 120.0)
+    counts_writer.rests(AZ, 120.0)
     assert not counts_writer.may_start(AZ), "the rest may be on its way to the disk"
     disk.work()
     assert counts_writer.may_start(AZ)
@@ -95,7 +95,7 @@ def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> Non
 def test_a_mark_that_a_rest_may_have_taken_back_lets_no_motor_start(path: Path, disk: SlowDisk) -> None:
     counts_writer = CountsWriter(known(path), disk)
     counts_writer.may_start(AZ)
-    counts_writer.rests(50.0, AZ, 120.0)
+    counts_writer.rests(AZ, 120.0)
     counts_writer.may_start(AZ)
     first_mark, rest, second_mark = disk.jobs
     first_mark()
@@ -105,11 +105,10 @@ def test_a_mark_that_a_rest_may_have_taken_back_lets_no_motor_start(path: Path, 
     assert counts_writer.may_start(AZ)
 
 
-def test_a_rest_of_some_seconds_is_kept(path: Path) -> None:
+def test_a_rest_is_kept_at_once(path: Path) -> None:
     counts_writer = CountsWriter(known(path), at_once)
     counts_writer.may_start(AZ)
-    for moment_s in (100.0, 101.0, 102.5):
-        counts_writer.rests(moment_s, AZ, 123.0)
+    counts_writer.rests(AZ, 123.0)
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 123.0)
 
 
@@ -154,7 +153,7 @@ def test_in_real_time_a_thread_of_its_own_writes_and_ends(path: Path) -> None:
             break
         give_up.wait(0.005)
     assert standing(path) is Standing.LOST
-    counts_writer.rests(100.0, AZ, 130.0)
+    counts_writer.rests(AZ, 130.0)
     counts_writer.close()
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 130.0), "close writes what stands"
     assert not [thread for thread in threading.enumerate() if thread.name.startswith(COUNTS_THREAD)]
@@ -166,7 +165,7 @@ def test_closed_it_writes_no_more_and_lets_nothing_start(path: Path) -> None:
     counts_writer.close()
     counts_writer.close()
     assert not counts_writer.may_start(AZ)
-    counts_writer.rests(100.0, AZ, 130.0)
+    counts_writer.rests(AZ, 130.0)
     counts_writer.lost(AZ)
     counts_writer.homed(AZ, 130.0)
     counts_writer.close()

@@ -11,11 +11,13 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.angles import great_circle_deg
-from rotator.exchange.orders import Aim, Jog, Park, Release, Stop
+from rotator.exchange.orders import Aim, Jog, Nudge, Park, Release, Stop
+from rotator.exchange.sources import Source
 from rotator.exchange.status import AxisStatus
 from tests.rotors.rig import AZ, EL, LINK, PERSON, Box, Kind, all_but, configured
 
 MINUS, OFF, PLUS = Direction
+PANEL = Source("panel")
 NewBox = Callable[..., Box]
 PRESS_DEG = 12.0
 """A jog that lasts for so much of the axis's travel at its speed."""
@@ -70,6 +72,53 @@ def test_it_goes_where_it_is_aimed_and_stands_there(box: Box) -> None:
     stood_deg = box.world.shafts()
     box.run(8.0)
     assert box.world.shafts() == pytest.approx(stood_deg, abs=box.kind.trembles_deg)
+
+
+@EACH_AXIS
+@pytest.mark.parametrize("elevation_deg", [20.0, 65.0])
+@pytest.mark.parametrize("beside_deg", [3.0])
+def test_a_nudge_moves_what_it_says(box: Box, axis: Axis, elevation_deg: float, beside_deg: float) -> None:
+    """An index of 5° after the other, also where the tolerance is wider, or lets the antenna rest beside its order."""
+    at_deg = {AZ: 120.0, EL: elevation_deg}
+    box.order(Aim(at_deg[AZ], at_deg[EL]))
+    box.until_it_stands()
+    at_deg[axis] += beside_deg
+    box.order(Aim(at_deg[AZ], at_deg[EL]))
+    box.until_it_stands()
+    for index in (1, 2, 1, 0, -1, -2, 0):
+        box.order(Nudge(axis, 5.0 * index), by=PANEL)
+        box.until_it_stands()
+        wanted_deg = {each: at_deg[each] + (5.0 * index if each is axis else 0.0) for each in Axis}
+        assert box.boom_deg(axis) == pytest.approx(wanted_deg[axis], abs=box.kind.within_deg)
+    # After a stop on the way nothing of it is left: an order within the tolerance moves nothing.
+    box.order(Nudge(axis, 20.0), by=PANEL)
+    box.run(1.0)
+    box.order(Stop())
+    box.until_it_stands()
+    stood_deg = box.world.shafts()
+    if (box.axis(axis).tolerance_deg or 0.0) > 0.0:
+        box.order(Nudge(axis, 0.0), by=PANEL)
+        box.order(Aim(box.axis(AZ).angle_deg, box.axis(EL).angle_deg))
+        box.until_it_stands()
+        assert box.world.shafts() == pytest.approx(stood_deg, abs=box.kind.trembles_deg)
+
+
+@EACH_AXIS
+def test_a_nudge_of_a_stream_shifts_what_follows(box: Box, axis: Axis) -> None:
+    """A press for 5° while a program sends an order each second: on average the antenna is 5° further from then on."""
+
+    def off_deg(from_s: int, to_s: int) -> float:
+        offs_deg = []
+        for second in range(from_s, to_s):
+            box.order(Aim(100.0 + 0.4 * second, 20.0 + 0.3 * second))
+            box.run(1.0)
+            wanted_deg = 100.0 + 0.4 * (second + 0.5) if axis is AZ else 20.0 + 0.3 * (second + 0.5)
+            offs_deg.append(box.boom_deg(axis) - wanted_deg)
+        return sum(offs_deg[-20:]) / 20
+
+    before_deg = off_deg(0, 60)
+    box.order(Nudge(axis, 5.0), by=PANEL)
+    assert off_deg(60, 90) - before_deg == pytest.approx(5.0, abs=1.5)
 
 
 def test_there_and_back_and_the_other_way_in_mid_move(box: Box) -> None:

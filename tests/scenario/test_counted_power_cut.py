@@ -35,7 +35,7 @@ class CountedBox:
         angle_deg = rig.wait(CYCLE_S, CYCLE_S)
         assert not rig.counter.trouble
         if rig.counter.at_rest:
-            self.file.rest(rig.clock(), AZ, angle_deg)
+            self.file.rest(AZ, angle_deg)
 
     def _order(self) -> None:
         if self._direction is Direction.OFF:
@@ -57,7 +57,8 @@ def test_a_thousand_power_cuts(tmp_path: Path) -> None:
         for _ in range(chance.randrange(1, 40)):
             box.cycle()
         motor = box.rig.rotor.azimuth.motor
-        moving = bool(motor.drive) or abs(motor.speed_dps) > 0.001
+        # At the end of the coast that the file states it still creeps, by some thousandths of a degree.
+        moving = bool(motor.drive) or abs(motor.speed_dps) > 0.1
         torn = path.with_name("counts.json.new")
         torn.write_text(path.read_text()[: chance.randrange(100)])
 
@@ -71,6 +72,6 @@ def test_a_thousand_power_cuts(tmp_path: Path) -> None:
         else:
             assert place.standing is Standing.LOST
             lost_in_mid_move += moving
-    assert known > CUTS / 5
-    assert lost_in_mid_move > CUTS / 5
+    assert known > CUTS / 2
+    assert lost_in_mid_move > CUTS / 10
     assert box.file.trouble == ""

@@ -10,7 +10,7 @@ import pytest
 from hw.ports import Axis
 from rotator.exchange.motor import ALL_OPEN, NO_TRIES, Tries, Trust
 from rotator.exchange.status import Latch
-from rotator.store.counts import REST_EVERY_S, CountsFile
+from rotator.store.counts import CountsFile
 from rotator.store.latch import LatchFile
 from rotator.store.relays import RelaysFile
 from rotator.store.tries import TriesFile
@@ -39,14 +39,9 @@ def tries(path: Path) -> tuple[Save, Save]:
 
 
 def counts(path: Path) -> tuple[Save, Save]:
-    file, moment_s = CountsFile(path, {AZ: {"spacing_deg": 5.0}}), iter(range(0, 10**6, round(REST_EVERY_S) + 1))
+    file = CountsFile(path, {AZ: {"spacing_deg": 5.0}})
     file.load()
-
-    def rest(angle_deg: float) -> None:
-        for _ in range(2):
-            file.rest(next(moment_s), AZ, angle_deg)
-
-    return lambda: rest(10.0), lambda: rest(200.0)
+    return lambda: file.rest(AZ, 10.0), lambda: file.rest(AZ, 200.0)
 
 
 def replaced(path: Path, old: bytes) -> None:

@@ -21,7 +21,7 @@ def build(parts: Assembly, lines: OutputLines | None) -> ServoRotor:
 
     def spec(axis: Axis) -> ServoSpec:
         table = tables.of(axis)
-        return ServoSpec(table.channel, tuple(table.pulses_us), table.start_deg, table.slew_dps)
+        return ServoSpec(table.channel, tuple(table.pulses_us), parts.first_deg(axis, table.start_deg), table.slew_dps)
 
     enable = None
     if tables.enable is not None:

@@ -93,6 +93,9 @@ class AxisBase(ABC, Generic[Settings]):
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
 
+    def nudged(self) -> None:
+        """A drive that takes an angle goes there anyway."""
+
     def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
         self._goal = jog(direction, seconds, now_s, commissioned=not self.missing, held=held)
 

@@ -86,6 +86,9 @@ class ControlledAxis(Protocol):
     def aim(self, goal: AimGoal) -> None:
         """Point there from now on."""
 
+    def nudged(self) -> None:
+        """A person has shifted the target: it is worth a move, also within the tolerance."""
+
     def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
         """Turn that way for `seconds`, or until halted (None). OFF halts. `held`: no wait prolongs the time."""
 

@@ -98,6 +98,9 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
     def moving(self, now_s: float) -> bool:
         return self._relays.off_for_s(now_s) < SETTLED_AFTER_S
 
+    def nudged(self) -> None:
+        self._law.nudged()
+
     def home(self) -> None:
         if self._settings.homing is None:
             raise Refused(needs_no_homing(self._settings.axis.value))

@@ -60,6 +60,8 @@ class SwitchedLaw:
         self._stop_s: float | None = None
         """When the lease will have opened the relay."""
         self._planned: tuple[Path, float] | None = None
+        self._nudged = False
+        """A person has shifted the target, and the axis has not been there since."""
 
     def renewed(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
         """The same law for readings that mean other places than before."""
@@ -95,11 +97,17 @@ class SwitchedLaw:
         self._planned = None
         return Run(Direction.OFF, now_s)
 
+    def nudged(self) -> None:
+        """A person has shifted the target: go there, also where the tolerance would let the axis rest."""
+        self._nudged = True
+
     def approach(self, now_s: float, target_deg: float, tolerance_deg: float) -> Run:
         """Towards a target that stands still."""
         target_deg = self._within_reach(target_deg)
         error_deg = target_deg - self._rest_deg(now_s)
+        tolerance_deg = min(tolerance_deg, LEAST_MOVE_DEG) if self._nudged else tolerance_deg
         if self._running is Direction.OFF and abs(error_deg) <= tolerance_deg:
+            self._nudged = False
             return self.rest(now_s)
         again = target_deg == self._goal_deg and self._relays.off_for_s(now_s) < RESTARTS_AFTER_S
         if self._running is Direction.OFF and again:
@@ -147,9 +155,11 @@ class SwitchedLaw:
             then_deg = path.angle_deg(crossing_s)
             staying_deg, going_deg = abs(then_deg - rest_deg), abs(then_deg - place_deg)
             on_sky_deg = staying_deg * math.sqrt(path.weight(crossing_s))
-            if staying_deg < going_deg or on_sky_deg < LEAST_SHARE * tolerance_deg:
+            worth_it = staying_deg >= going_deg and on_sky_deg >= LEAST_SHARE * tolerance_deg
+            if not (worth_it or self._nudged):
                 return Run(Direction.OFF, now_s)
             if abs(place_deg - rest_deg) < LEAST_MOVE_DEG:
+                self._nudged = False
                 return Run(Direction.OFF, now_s)
         return self._go(now_s, place_deg)
 
@@ -170,6 +180,7 @@ class SwitchedLaw:
         left_deg = goal_deg - self._rest_deg(now_s)
         if self._running is Direction.OFF:
             self._running = Direction.PLUS if left_deg > 0 else Direction.MINUS
+        self._nudged = self._nudged and (goal_deg != self._goal_deg or left_deg * self._running > 0)
         self._goal_deg = goal_deg
         left_deg *= self._running
         if left_deg <= 0:
@@ -178,7 +189,7 @@ class SwitchedLaw:
         left_s = left_deg / self.motion.motors[self._running].speed_dps
         if left_s > self._timing.period_s:
             return Run(self._running, now_s + self._timing.lease_s)
-        self._stop_s = now_s + left_s
+        self._stop_s, self._nudged = now_s + left_s, False
         return Run(self._running, self._stop_s)
 
     def _within_reach(self, goal_deg: float) -> float:

@@ -23,8 +23,10 @@ class Nudges:
         self._highest_deg = highest_deg
         self._deg = dict.fromkeys(Axis, 0.0)
 
-    def set(self, axis: Axis, offset_deg: float) -> None:
-        self._deg[axis] = offset_deg
+    def set(self, axis: Axis, offset_deg: float) -> float:
+        """Returns by how much further orders are shifted now."""
+        before_deg, self._deg[axis] = self._deg[axis], offset_deg
+        return offset_deg - before_deg
 
     def clear(self) -> None:
         self._deg = dict.fromkeys(Axis, 0.0)

@@ -60,6 +60,10 @@ class Pointing:
         """The target stands at the direction last ordered."""
         self._track.end()
 
+    def shift(self, azimuth_deg: float, elevation_deg: float) -> None:
+        """A person has shifted all orders by this; the one in force is to be given again."""
+        self._track.shift(azimuth_deg, elevation_deg)
+
     def accompany(self, now_s: float, aim: Aim, way: Way) -> None:
         """A flight leads the antenna on this way. Note the stream's order, to follow the stream after the flight."""
         assert aim.azimuth_deg is not None

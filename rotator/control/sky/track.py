@@ -57,6 +57,12 @@ class Track:
         self._orders.clear()
         self._fit = None
 
+    def shift(self, azimuth_deg: float, elevation_deg: float) -> None:
+        """A person shifts all orders by this, and the latest one comes again: the target has not moved."""
+        kept = list(self._orders)[:-1]
+        self.clear()
+        self._orders.extend((at_s, (az + azimuth_deg) % 360.0, el + elevation_deg) for at_s, az, el in kept)
+
     def end(self) -> None:
         """No more orders come: the target stands at the last one."""
         last = list(self._orders)[-1:]

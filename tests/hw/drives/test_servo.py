@@ -36,7 +36,12 @@ class Bench:
     """The servos stand at 90° when the power comes, and the drive is configured to start at 60° and 10°."""
 
     def __init__(
-        self, idle_off_s: float | None = None, *, on_the_wire: bool = False, at_deg: tuple[float, float] = (90.0, 90.0)
+        self,
+        idle_off_s: float | None = None,
+        *,
+        on_the_wire: bool = False,
+        at_deg: tuple[float, float] = (90.0, 90.0),
+        wired: bool = True,
     ) -> None:
         self.clock = SimClock(100.0)
         still = SimServoSpec(jitter_deg=0.0)
@@ -45,20 +50,34 @@ class Bench:
             ServoAxisSpec(1, at_deg[1], still),
             self.clock,
             self.clock.sleep if on_the_wire else None,
-            enable_pin=OE_PIN,
+            enable_pin=OE_PIN if wired else None,
         )
-        self.drive = ServoDrive(
+        self._enable = (
+            GpioOutputs(self.rotor.gpio, "/dev/gpiochip0", {ENABLE: OE_PIN}, consumer="rotator-servos", active_low=True)
+            if wired
+            else None
+        )
+        self._idle_off_s = idle_off_s
+        self.drive = self._new_drive()
+        self.heard: list[str] = []
+        self.clock.add_alarm(self._due_s, self._guard)
+
+    def _new_drive(self) -> ServoDrive:
+        return ServoDrive(
             Pca9685(SmbusI2C(self.rotor.bus, "bus 1"), 0x40, self.clock.sleep),
             ServoSpec(0, PULSES_US, start_deg=60.0, slew_dps=40.0),
             ServoSpec(1, PULSES_US, start_deg=10.0, slew_dps=40.0),
             self.clock,
-            enable=GpioOutputs(
-                self.rotor.gpio, "/dev/gpiochip0", {ENABLE: OE_PIN}, consumer="rotator-servos", active_low=True
-            ),
-            idle_off_s=idle_off_s,
+            enable=self._enable,
+            idle_off_s=self._idle_off_s,
         )
-        self.heard: list[str] = []
-        self.clock.add_alarm(self.drive.due_s, self._guard)
+
+    def program_ends(self) -> None:
+        """Killed; and a new one begins."""
+        self.drive = self._new_drive()
+
+    def _due_s(self) -> float | None:
+        return self.drive.due_s()
 
     def _guard(self, now_s: float) -> None:
         try:
@@ -363,3 +382,35 @@ def test_a_specification_that_contradicts_itself(azimuth: ServoSpec, said: str) 
     chip = Pca9685(SmbusI2C(bench.rotor.bus, "bus 1"), 0x40, bench.clock.sleep)
     with pytest.raises(HardwareError, match=said):
         ServoDrive(chip, azimuth, ServoSpec(1, PULSES_US, 0.0, 40.0), bench.clock)
+
+
+# --- the next run of the program
+
+
+@pytest.mark.parametrize("wired", [True, False], ids=["enable line", "no enable line"])
+@pytest.mark.parametrize("moves_s", [1.0, 9.0], ids=["in mid-move", "at rest"])
+@pytest.mark.parametrize("dipped", [False, True], ids=["the board had supply", "its supply was cut"])
+def test_a_new_program_goes_on_where_the_board_holds_the_servos(*, wired: bool, moves_s: float, dipped: bool) -> None:
+    """The board's registers outlive the program: no jump to the file's start angles, 60° and 10°."""
+    bench = Bench(at_deg=(60.0, 10.0), wired=wired)
+    bench.settle()
+    bench.follow(AZ, 150.0, moves_s)
+    stood_deg = bench.rotor.shafts()
+    late_deg = 40.0 * 0.02 + TICK_DEG  # how far a servo is behind its pulses
+    if dipped:
+        bench.rotor.faults["board-dips"].inject()
+    bench.program_ends()
+    bench.clock.sleep(5.0)
+    assert bench.rotor.shafts() == pytest.approx(stood_deg, abs=late_deg), "no motion before an order"
+    assert bench.drive.position_known(AZ) is not (wired or dipped)
+    if dipped:
+        assert bench.drive.angle_deg(AZ) == 60.0, "a board without supply knows nothing"
+        return
+    assert bench.drive.angle_deg(AZ) == pytest.approx(stood_deg[0], abs=late_deg)
+    way = []
+    for _ in range(100):
+        bench.follow(AZ, 170.0, CYCLE_S)
+        way.append(bench.antenna(AZ))
+    assert min(way) >= stood_deg[0] - late_deg, "the first pulse is that angle"
+    bench.follow(AZ, 170.0, SETTLED_S)
+    assert bench.antenna(AZ) == pytest.approx(170.0, abs=TICK_DEG)
