@@ -5,6 +5,7 @@ Knows only values. Its readers never ask the hardware.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from hw.ports import AngleSource, Axis, Direction
@@ -16,6 +17,8 @@ AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
 """A reading beyond an end of the range is shown as that end, up to this many times the noise and up to this many
 degrees. Five times: one reading in three million is further off."""
 
+SHOWN_OFF_DEG = 1.0
+"""Degrees: nearer than this to its target, nobody asks why an axis does not turn: programs send whole degrees."""
 JOG_ENDS_DEG = 0.5
 """Degrees: nearer than this to an end of its range, no jog turns an axis towards that end."""
 
@@ -216,6 +219,26 @@ class Status:
     def cut(self) -> bool:
         """Whether the motors' supply must be switched off."""
         return any(fault.cut for fault in self.faults)
+
+    @property
+    def stays(self) -> tuple[str, ...]:
+        """Why an axis that an order has reached stands beside it, where no fault, notice or missing step says why."""
+        return tuple(f"{axis.value}: {why}" for axis in Axis if (why := self._stays(axis, self.axis(axis))))
+
+    def _stays(self, axis: Axis, each: AxisStatus) -> str:
+        if each.target_deg is None or each.points_deg is None or each.moving or each.fault or each.missing:
+            return ""
+        target_deg, wanted_deg = each.target_deg + each.correction_deg, self.wanted_deg(axis)
+        off_deg, raised_deg = abs(each.points_deg - target_deg), self.elevation.points_deg or 0.0
+        if off_deg >= SHOWN_OFF_DEG and each.at_target:
+            sky_deg = off_deg * abs(math.cos(math.radians(raised_deg)))
+            sky = f", {sky_deg:.1f}° on the sky" if axis is Axis.AZIMUTH else ""
+            return f"within tolerance: {off_deg:.1f}° from its target{sky}; it turns from {each.tolerance_deg:.1f}° on"
+        if off_deg >= SHOWN_OFF_DEG and not each.notices:
+            return "waits while the other axis turns" if self.moving else "waits for its motor"
+        if axis is Axis.ELEVATION and wanted_deg is not None and wanted_deg < target_deg - SHOWN_OFF_DEG:
+            return f"{wanted_deg:.1f}° is below its range or the horizon: it stays at {target_deg:.1f}°"
+        return ""
 
     @property
     def faults(self) -> tuple[Fault, ...]:

@@ -152,6 +152,7 @@ def report(status: Status) -> list[str]:
     lines += [f"missing: {axis.value} needs {what}" for axis in Axis if (what := status.axis(axis).uncalibrated)]
     lines += [f"note: {notice}" for notice in status.notices]
     lines += [f"note: {axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
+    lines += [f"note: {why}" for why in status.stays]
     if status.simulated:
         lines.append("simulated: nothing real turns")
     return [spoken(line) for line in lines]

@@ -30,8 +30,6 @@ CALIBRATIONS_EVERY_S = 1.0
 CALIBRATIONS_AGAIN_S = 10.0
 """The pause after a calibration that could not be saved."""
 LEARNT_EVERY_S = 600.0
-MODELLED_EVERY_S = 10.0
-"""While it moves; an angle at rest is saved within a second."""
 
 
 class Autosave:
@@ -61,9 +59,8 @@ class Autosave:
         """Why the latest calibration of an axis could not be saved."""
         learnt.note(self._motors())
         self._modelled = modelled
-        kept = modelled.load() if modelled else {}
-        self._kept_deg = {axis: place.angle_deg for axis, place in kept.items()}
-        """The angle of each modelled axis in its file, on the rotor's own scale."""
+        if modelled:
+            modelled.load()
 
     async def run(self) -> None:
         """Save again and again, until cancelled."""
@@ -73,9 +70,8 @@ class Autosave:
             rounds += 1
             if not self._troubles or rounds * CALIBRATIONS_EVERY_S % CALIBRATIONS_AGAIN_S == 0:
                 await aside(self.keep_calibrations, AUTOSAVE_THREAD)
-            moving = rounds * CALIBRATIONS_EVERY_S % MODELLED_EVERY_S == 0
-            if self._modelled_deg(moving=moving).items() - self._kept_deg.items():
-                await aside(partial(self.keep_modelled, moving=moving), AUTOSAVE_THREAD)
+            if self._modelled:
+                await aside(self.keep_modelled, AUTOSAVE_THREAD)
             if rounds * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
                 await aside(partial(self._keep_learnt, ending=False), AUTOSAVE_THREAD)
 
@@ -86,7 +82,7 @@ class Autosave:
     def _close(self) -> None:
         self.keep_calibrations()
         self._keep_learnt(ending=True)
-        self.keep_modelled(moving=True)
+        self.keep_modelled(ending=True)
 
     def keep_calibrations(self) -> None:
         """Save each calibration that was taken over a link (O, F) and is not saved yet."""
@@ -97,22 +93,14 @@ class Autosave:
         with self._saving:
             self._learnt.save(self._motors(), ending=ending)
 
-    def keep_modelled(self, *, moving: bool) -> None:
-        """Save the angles that only a model knows, where they are new. `moving`: also of an axis that moves."""
-        with self._saving:
-            for axis, angle_deg in self._modelled_deg(moving=moving).items():
-                if self._modelled and angle_deg != self._kept_deg.get(axis):
-                    self._modelled.rest(axis, angle_deg)
-                    self._kept_deg[axis] = angle_deg
-
-    def _modelled_deg(self, *, moving: bool) -> dict[Axis, float]:
-        """The angles that only a model knows, in tenths of a degree. `moving`: also of an axis that moves."""
-        status = {axis: self._loop.status.axis(axis) for axis in Axis if self._modelled}
-        return {
-            axis: round(each.angle_deg - self._offsets.deg(axis), 1)
-            for axis, each in status.items()
-            if each.source is AngleSource.MODELLED and each.angle_deg is not None and (moving or not each.moving)
-        }
+    def keep_modelled(self, *, ending: bool = False) -> None:
+        """Save the angles that only a model knows: of each axis at rest; at the end of the program of any."""
+        for axis in Axis:
+            each = self._loop.status.axis(axis)
+            known = each.source is AngleSource.MODELLED and (ending or not each.moving)
+            if self._modelled and known and each.angle_deg is not None:
+                with self._saving:
+                    self._modelled.rest(axis, round(each.angle_deg - self._offsets.deg(axis), 1))
 
     def _keep_calibrations(self) -> None:
         for axis in Axis:

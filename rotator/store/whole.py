@@ -38,14 +38,14 @@ def write_block(path: Path, content: str) -> None:
     block = content.encode("utf-8").ljust(BLOCK)
     with under_way(path):
         path = path.resolve()
-        unfinished = os.path.lexists(path.with_name(path.name + NEW))
-        if unfinished or not path.is_file() or path.stat().st_size != BLOCK or len(block) != BLOCK:
+        sizes = {len(block), path.stat().st_size if path.is_file() else 0}
+        if sizes != {BLOCK} or os.path.lexists(path.with_name(path.name + NEW)):
             _write_whole(path, block)
-            return
-        with path.open("r+b") as file:
-            file.write(block)
-            file.flush()
-            os.fdatasync(file.fileno())
+        else:
+            with path.open("r+b") as file:
+                file.write(block)
+                file.flush()
+                os.fdatasync(file.fileno())
 
 
 def _write_whole(path: Path, content: str | bytes) -> None:

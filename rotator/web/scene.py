@@ -155,7 +155,7 @@ class Scene:
             "stopper": named_status.latched,
             "mode_by": named_status.mode_by,
             "mode_switch": status.mode_switch,
-            "notes": [*named_status.notices, *words.notes(status), *words.lacks(status)],
+            "notes": [*named_status.notices, *words.notes(status), *words.lacks(status), *status.stays],
             "links": [_link(wire) for wire in self._wires],
         }
 

@@ -72,7 +72,7 @@ class Run:
 def test_the_next_run_knows_it(tmp_path: Path, kind: str, ends: str, offset_deg: float) -> None:
     first = Run(kind, tmp_path, offset_deg=offset_deg)
     first.aim(139.0, 39.0, 25.0)
-    first.autosave.keep_modelled(moving=False)
+    first.autosave.keep_modelled()
     stood_deg = first.angles_deg()
     assert stood_deg == pytest.approx([139.0, 39.0], abs=NEAR_DEG[kind])
     if ends == "properly":
