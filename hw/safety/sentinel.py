@@ -13,6 +13,7 @@ import sys
 from contextlib import suppress
 from fcntl import F_SETPIPE_SZ, fcntl
 from pathlib import Path
+from secrets import token_hex
 
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines
@@ -24,7 +25,7 @@ END_S = 6.0
 """Seconds allowed for the end of the process, before it is killed."""
 PIPE_BYTES = 4096
 """The pipe's size. It is small: when the sentinel stops reading, the pipe is full after minutes of motion, and `renew`
-raises."""
+raises. `is_awake` tells it within seconds."""
 OOM_SCORE = 300
 """When memory runs out, the kernel must kill the program before its sentinel: the child keeps the lower score."""
 
@@ -41,12 +42,15 @@ class Sentinel:
             start_new_session=True,  # Ctrl-C in the terminal is for the program alone
         )
         assert self._process.stdin is not None
+        assert self._process.stdout is not None
         self._pipe = self._process.stdin
+        self._asked = self._heard = b""
         os.set_blocking(self._pipe.fileno(), False)
         fcntl(self._pipe, F_SETPIPE_SZ, PIPE_BYTES)
         if not self._is_ready():
             self.close()
             raise HardwareError("the sentinel, which opens the relays if the program dies, does not start")
+        os.set_blocking(self._process.stdout.fileno(), False)
         _die_first()
 
     @property
@@ -59,6 +63,19 @@ class Sentinel:
             self._send(b"+")
         except OSError as fault:
             raise HardwareError(f"the sentinel (process {self.pid}) is gone or stuck: no relay may close") from fault
+
+    def is_awake(self) -> bool:
+        """Whether it has answered the last question. If so, the next one is asked. Of one thread."""
+        assert self._process.stdout is not None
+        with suppress(OSError, ValueError):
+            self._heard += os.read(self._process.stdout.fileno(), PIPE_BYTES)
+        if not self._heard.endswith(self._asked):
+            return False
+        # Drawn by lot, so that no earlier answer is taken for this one's.
+        self._asked, self._heard = token_hex(4).encode(), b""
+        with suppress(OSError):  # what does not reach it has no answer either
+            self._send(self._asked)
+        return True
 
     def rest(self) -> None:
         """All relays are off."""

@@ -1,8 +1,9 @@
 """The sentinel: a small process that opens the relays when the program that closed them has died or hangs.
 
 Knows the relay lines, the program's process and one pipe. On the pipe `+` means that a relay is on, `-` that all relays
-are off, and `.` that the program ends properly. The end of the pipe without `.` means that the program has died. Knows
-no sensor, no order and no configuration.
+are off, and `.` that the program ends properly. All other bytes are a question, which goes back as it came: so the
+program knows that its sentinel is awake. The end of the pipe without `.` means that the program has died. Knows no
+sensor, no order and no configuration.
 
 It uses no bus, disk or network that could make it hang, and it is loaded and locked in memory before the first relay
 may close. It is needed because a Raspberry Pi's kernel keeps the outputs of a dead program as they were.
@@ -35,13 +36,14 @@ PATIENCE_S = 5.0
 _MCL_CURRENT_AND_FUTURE = 3
 
 
-def watch(commands: int, program: int, off: Callable[[], None]) -> None:
-    """Read the pipe `commands` until the program (a pidfd) ends, dies, or falls silent with a relay on.
+def watch(commands: int, answers: int, program: int, off: Callable[[], None]) -> None:
+    """Read the pipe `commands` until the program (a pidfd) ends, dies, or falls silent with a relay on. Questions go
+    back on the pipe `answers`.
 
     Calls `off` at the end, unless the program has ended properly.
     """
     try:
-        ended_properly = _read_until_end(commands, program)
+        ended_properly = _read_until_end(commands, answers, program)
     except OSError:
         # Without the pipe the sentinel cannot know whether a relay is on. Off is safe.
         ended_properly = False
@@ -49,9 +51,10 @@ def watch(commands: int, program: int, off: Callable[[], None]) -> None:
         off()
 
 
-def _read_until_end(commands: int, program: int) -> bool:
+def _read_until_end(commands: int, answers: int, program: int) -> bool:
     """Whether the program ended properly."""
     last_on_s: float | None = None
+    os.set_blocking(answers, False)
     while True:
         left_s = None if last_on_s is None else max(0.0, last_on_s + SILENCE_S - time.monotonic())
         ready, _, _ = select.select([commands], [], [], left_s)
@@ -64,9 +67,13 @@ def _read_until_end(commands: int, program: int) -> bool:
         received = os.read(commands, 4096)
         if not received:
             return False
-        if received.endswith(b"."):
-            return True
-        last_on_s = time.monotonic() if received.endswith(b"+") else None
+        if question := received.translate(None, b"+-."):
+            with suppress(BlockingIOError):  # the program reads no answer: nothing here waits for it
+                os.write(answers, question)
+        if said := received.translate(None, question):
+            if said.endswith(b"."):
+                return True
+            last_on_s = time.monotonic() if said.endswith(b"+") else None
 
 
 def main(arguments: list[str]) -> int:
@@ -87,7 +94,12 @@ def _watch(lines: RelayLines) -> int:
     # Without the right to lock memory this fails, and the sentinel is only slower when memory has run out.
     ctypes.CDLL(None).mlockall(_MCL_CURRENT_AND_FUTURE)
     os.write(sys.stdout.fileno(), READY)
-    watch(sys.stdin.fileno(), program, lambda: switch_off(api, lines, time.monotonic, time.sleep, PATIENCE_S))
+    watch(
+        sys.stdin.fileno(),
+        sys.stdout.fileno(),
+        program,
+        lambda: switch_off(api, lines, time.monotonic, time.sleep, PATIENCE_S),
+    )
     return 0
 
 

@@ -20,7 +20,7 @@ from rotator.links.wire import LinkError, Wire
 from rotator.runtime.anew import Anew
 from rotator.runtime.closing import Part, closing
 from rotator.runtime.dead_threads import dead_threads
-from rotator.runtime.engine import process_end
+from rotator.runtime.engine import sentinel_fails
 from rotator.runtime.open_files import say_it_once
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ class App:
         built = self._built
         if self.station.sentinel and self.station.lines:
             built.service_manager.leave(RELAY_LINES, self.station.lines.to_text())
-            self._tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
+            self._tasks.append(asyncio.create_task(sentinel_fails(self.station.sentinel), name="sentinel"))
         built.remembered.start()
         if (latched := self.loop.status.latch) is not None:
             log.warning("%s", held_by(latched.by, storm=latched.storm))

@@ -10,6 +10,7 @@ import logging
 import os
 import threading
 from contextlib import suppress
+from typing import Protocol
 
 from hw.ports import HardwareError
 from rotator.rotors.port import Rotor
@@ -20,19 +21,43 @@ log = logging.getLogger(__name__)
 CONTROL_THREAD = "control"
 """The name of the thread."""
 JOIN_S = 2.0 + COAST_S
+ANSWER_EVERY_S = 0.5
+MOST_MISSED = 6
+"""So many looks in a row without the sentinel's answer, 3 s: a Pi that compiles beside the box delays it by less than a
+tenth of that."""
 
 
-async def process_end(pid: int) -> None:
-    """Wait until the sentinel process ends, then raise HardwareError: the sentinel should outlive the program."""
-    ended = asyncio.Event()
-    handle = os.pidfd_open(pid)
+class Sentinel(Protocol):
+    """The process that opens the relays if this program dies."""
+
+    @property
+    def pid(self) -> int: ...
+
+    def is_awake(self) -> bool:
+        """Whether it has answered the question of the call before."""
+
+
+async def sentinel_fails(sentinel: Sentinel) -> None:
+    """Wait until the sentinel process ends or answers no more, then raise HardwareError: it should outlive the program.
+
+    Its silence counts in looks, and not in time: where the whole machine has stood still, it has missed one.
+    """
+    ended, missed, failed = asyncio.Event(), 0, "does not answer"
+    handle = os.pidfd_open(sentinel.pid)
     asyncio.get_running_loop().add_reader(handle, ended.set)
     try:
-        await ended.wait()
+        while missed < MOST_MISSED:
+            missed = 0 if sentinel.is_awake() else missed + 1
+            with suppress(TimeoutError):
+                await asyncio.wait_for(ended.wait(), ANSWER_EVERY_S)
+                failed = "has ended"
+                break
     finally:
         asyncio.get_running_loop().remove_reader(handle)
         os.close(handle)
-    raise HardwareError(f"the sentinel (process {pid}) has ended: nothing would open the relays if this program died")
+    raise HardwareError(
+        f"the sentinel (process {sentinel.pid}) {failed}: nothing would open the relays if this program died"
+    )
 
 
 class ControlThread:

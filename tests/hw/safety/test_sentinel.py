@@ -5,6 +5,7 @@ Its life beside the box, on real lines, is tried on a real kernel (tests/kernel)
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import subprocess
@@ -17,6 +18,7 @@ import pytest
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import OOM_SCORE, Sentinel
+from rotator.runtime.engine import ANSWER_EVERY_S, MOST_MISSED, sentinel_fails
 
 MINUTES_OF_RENEWALS = 5 * 60 * 20
 """Renewals in five minutes of motion, at 20 Hz."""
@@ -132,6 +134,38 @@ def test_a_sentinel_that_no_longer_reads_lets_no_relay_close(switched_off: Path)
         os.kill(sentinel.pid, signal.SIGCONT)
         sentinel.close()
     assert switched_off.exists(), "it goes on, and finds the end of the pipe"
+
+
+def test_a_sentinel_that_is_stopped_is_noticed_within_seconds(switched_off: Path) -> None:
+    """Also while no relay is on. The box then ends, as when its sentinel has died."""
+    sentinel = Sentinel(LINES)
+
+    async def the_box_runs(*, stopped: bool) -> None:
+        async with asyncio.timeout(ANSWER_EVERY_S * (MOST_MISSED + 4)):
+            watched = asyncio.create_task(sentinel_fails(sentinel))
+            while watched in (await asyncio.wait([watched], timeout=ANSWER_EVERY_S))[1] and not stopped:
+                pass
+            await watched
+
+    with pytest.raises(TimeoutError):
+        asyncio.run(the_box_runs(stopped=False))
+    os.kill(sentinel.pid, signal.SIGSTOP)
+    try:
+        with pytest.raises(HardwareError, match=f"process {sentinel.pid}. does not answer"):
+            asyncio.run(the_box_runs(stopped=True))
+    finally:
+        os.kill(sentinel.pid, signal.SIGCONT)
+        sentinel.close()
+    assert switched_off.exists()
+
+
+def test_a_sentinel_that_is_killed_is_noticed_at_once(switched_off: Path) -> None:
+    sentinel = Sentinel(LINES)
+    os.kill(sentinel.pid, signal.SIGKILL)
+    with pytest.raises(HardwareError, match=f"process {sentinel.pid}. has ended"):
+        asyncio.run(sentinel_fails(sentinel))
+    sentinel.close()
+    assert not switched_off.exists()
 
 
 def locked_kib(pid: int | str) -> int:

@@ -34,8 +34,11 @@ class Program:
         self.process = subprocess.Popen(["sleep", "1000"])
         self.pidfd = os.pidfd_open(self.process.pid)
         self.commands, self.pipe = os.pipe()
+        self.answers, self._answering = os.pipe()
         self.off_s: float | None = None
-        self._thread = threading.Thread(target=watch, args=(self.commands, self.pidfd, self._off), name="watch")
+        self._thread = threading.Thread(
+            target=watch, args=(self.commands, self._answering, self.pidfd, self._off), name="watch"
+        )
         self._thread.start()
 
     def says(self, commands: bytes) -> None:
@@ -58,8 +61,8 @@ class Program:
         if self.pipe >= 0:
             os.close(self.pipe)
         self._thread.join(PATIENCE_S)
-        os.close(self.commands)
-        os.close(self.pidfd)
+        for file in (self.commands, self.answers, self._answering, self.pidfd):
+            os.close(file)
 
     def _off(self) -> None:
         self.off_s = time.monotonic()
@@ -70,6 +73,29 @@ def program() -> Iterator[Program]:
     made = Program()
     yield made
     made.close()
+
+
+# --- what it answers
+
+
+@pytest.mark.parametrize(
+    ("said", "question"), [(b"1f", b"1f"), (b"+1f", b"1f"), (b"1f+", b"1f"), (b"1-f-", b"1f")], ids=repr
+)
+def test_a_question_goes_back_as_it_came(program: Program, said: bytes, question: bytes) -> None:
+    program.says(said)
+    assert os.read(program.answers, 100) == question
+    program.says(b"-.")
+    assert program.watch_ended()
+    assert program.off_s is None
+
+
+def test_a_question_is_no_sign_of_a_program_that_keeps_its_leases(program: Program) -> None:
+    """Its event loop still asks; the thread that renews the leases hangs."""
+    program.says(b"+")
+    while program.off_s is None and program.alive():
+        program.says(b"1f")
+    assert program.watch_ended()
+    assert program.process.wait(PATIENCE_S) == -signal.SIGKILL
 
 
 # --- when it acts
@@ -110,7 +136,7 @@ def test_a_pipe_that_cannot_be_read_is_no_reason_to_leave_them_closed() -> None:
     offs: list[bool] = []
     reading, writing = os.pipe()
     os.close(reading)
-    watch(reading, -1, lambda: offs.append(True))
+    watch(reading, -1, -1, lambda: offs.append(True))
     os.close(writing)
     assert offs == [True]
 
