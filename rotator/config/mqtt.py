@@ -13,6 +13,9 @@ from pydantic import Field, field_validator, model_validator
 from rotator.config.links import address
 from rotator.config.table import SECRET, Table
 
+PREFIX = "rotator"
+EVERY_BOX = "all"
+"""In place of a box's name: every box stops by a message there."""
 _TOPIC = re.compile(r"[A-Za-z0-9_-]+(?:/[A-Za-z0-9_-]+)*")
 
 
@@ -25,8 +28,17 @@ class MqttTable(Table):
     """Its password there."""
     tls: bool = False
     """Encrypted; the broker's certificate must be good."""
-    topic: str = Field("rotator", max_length=100)
-    """Its messages begin with this."""
+    ca_file: str | None = Field(None, min_length=1)
+    """With tls: the certificate of the authority that signed the broker's; left out, those that the system trusts."""
+    cert_file: str | None = Field(None, min_length=1)
+    """With tls: the box's own certificate, where the broker wants one."""
+    key_file: str | None = Field(None, min_length=1)
+    """The key of that certificate, without a passphrase; left out, it is in cert_file."""
+    box: str | None = Field(None, max_length=60)
+    """The box's name on the broker: topics rotator/NAME/…, and rotator/all/stop stops every box. Left out, the
+    machine's name."""
+    topic: str | None = Field(None, max_length=100)
+    """What its topics begin with in place of rotator; without box, in place of the name too."""
     may: Literal["look", "stop", "move"] = "stop"
     """What messages may do: nothing; stop; or all that the page can. `move` is for a broker with passwords."""
     discovery: bool = True
@@ -41,13 +53,27 @@ class MqttTable(Table):
 
     @field_validator("topic")
     @classmethod
-    def _a_topic(cls, text: str) -> str:
-        if not _TOPIC.fullmatch(text):
+    def _a_topic(cls, text: str | None) -> str | None:
+        if text is not None and not _TOPIC.fullmatch(text):
             raise ValueError(f'"{text}" must be words of letters, digits, - and _, with / between them')
         return text
 
+    @field_validator("box")
+    @classmethod
+    def _a_name(cls, text: str | None) -> str | None:
+        if text is not None and ("/" in text or not _TOPIC.fullmatch(text)):
+            raise ValueError(f'"{text}" must be a word of letters, digits, - and _')
+        if text == EVERY_BOX:
+            raise ValueError(f'"{EVERY_BOX}" is the name of every box: take another')
+        return text
+
     @model_validator(mode="after")
-    def _password_goes_with_user(self) -> MqttTable:
+    def _what_goes_together(self) -> MqttTable:
         if self.password is not None and self.user is None:
             raise ValueError("password goes with user, the name under which the box logs in")
+        if self.key_file is not None and self.cert_file is None:
+            raise ValueError("key_file goes with cert_file, the certificate that it belongs to")
+        for key, file in (("ca_file", self.ca_file), ("cert_file", self.cert_file)):
+            if file is not None and not self.tls:
+                raise ValueError(f"{key} goes with tls = true")
         return self

@@ -5,8 +5,15 @@ Knows the parts and the arguments of each. Does not speak with a broker.
 
 from __future__ import annotations
 
+import hashlib
+import re
+import socket
+from contextlib import suppress
+from pathlib import Path
+
 from rotator.config.links import address
 from rotator.config.model import Config
+from rotator.config.mqtt import EVERY_BOX, PREFIX, MqttTable
 from rotator.control.sky.mount import Mount
 from rotator.exchange.sources import MQTT, Source
 from rotator.mqtt.desk import Desk
@@ -27,11 +34,38 @@ def build_mqtt(config: Config, loop: ControlLoop, mount: Mount, tracking: Tracki
     source = Source(MQTT)
     client = Client(loop, mount, source)
     return MqttThread(
-        Broker(*address(table.broker), table.user, table.password, table.tls),
-        Topics(table.topic),
+        Broker(
+            *address(table.broker),
+            table.user,
+            table.password,
+            table.tls,
+            table.ca_file,
+            table.cert_file,
+            table.key_file,
+        ),
+        topics_of(table),
         Desk(Operating(client, tracking, source), table.may),
         may=table.may,
         announces=table.discovery,
         status=lambda: as_object(loop.status),
         left=client.left,
     )
+
+
+def topics_of(table: MqttTable) -> Topics:
+    """A topic of the file alone is the whole beginning, as before boxes had names."""
+    if table.topic and not table.box:
+        return Topics(table.topic)
+    prefix = table.topic or PREFIX
+    return Topics(f"{prefix}/{table.box or _machine()}", f"{prefix}/{EVERY_BOX}/stop")
+
+
+def _machine() -> str:
+    """The machine's name; where it is the one that every new system has, with four digits of this system's own."""
+    name = re.sub(r"[^A-Za-z0-9_-]", "_", socket.gethostname().partition(".")[0])
+    with suppress(OSError):
+        if name in ("raspberrypi", "localhost", EVERY_BOX):
+            # The machine's id itself must not be published: see machine-id(5).
+            own = hashlib.sha256(b"gs232-rotator mqtt" + Path("/etc/machine-id").read_bytes().strip())
+            return f"{name}-{own.hexdigest()[:4]}"
+    return name

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from rotator.protocols.methods import METHODS, WrongValuesError
+from rotator.protocols.methods import METHODS, Method, WrongValuesError
 from rotator.protocols.operating import Operating
 
 LONGEST = 4096
@@ -24,6 +24,11 @@ class Desk:
         self._operating = operating
         self._may = may
 
+    @property
+    def methods(self) -> list[str]:
+        """The methods that messages may ask for."""
+        return [method.name for method in METHODS if self._refused_by_right(method) == ""]
+
     def do(self, name: str, payload: bytes, *, kept: bool) -> dict[str, Any]:
         """Do it, and answer. `kept`: the broker has kept the message from before: an old wish is no order."""
         refused = self._refused(name, payload, kept=kept)
@@ -36,13 +41,17 @@ class Desk:
             return f"there is no method {name[:40]!a}: {', '.join(_METHODS)}"
         if kept:
             return "the broker has kept this message: send it without retain"
-        if self._may != "move" and not (method.free and self._may == "stop"):
-            return _MAY_STOP.format(self._may, _WORDS[self._may])
+        if refused := self._refused_by_right(method):
+            return refused
         try:
             # A stop counts with any content.
             return self._operating.do(method.command({} if method.free else _values(payload)))
         except WrongValuesError as reason:
             return str(reason)
+
+    def _refused_by_right(self, method: Method) -> str:
+        allowed = self._may == "move" or (method.free and self._may == "stop")
+        return "" if allowed else _MAY_STOP.format(self._may, _WORDS[self._may])
 
 
 def _values(payload: bytes) -> dict[str, object]:

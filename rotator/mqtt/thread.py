@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from rotator.links.wire import Wire, reason
-from rotator.mqtt.desk import Desk
+from rotator.mqtt.desk import LONGEST, Desk
 from rotator.mqtt.topics import OFFLINE, ONLINE, Topics, discovery
 
 if TYPE_CHECKING:
-    from paho.mqtt.client import Client
+    from rotator.mqtt.bounded import BoundedClient, TooLong
 
 log = logging.getLogger(__name__)
 
@@ -44,6 +44,21 @@ class Broker:
     user: str | None
     password: str | None
     tls: bool
+    ca_file: str | None = None
+    cert_file: str | None = None
+    key_file: str | None = None
+
+    def context(self) -> ssl.SSLContext:
+        """Raises OSError with the name of the key."""
+        try:
+            key = "ca_file"
+            made = ssl.create_default_context(cafile=self.ca_file)
+            if self.cert_file is not None:
+                key = "cert_file, key_file"
+                made.load_cert_chain(self.cert_file, self.key_file, password="")  # else it would ask the terminal
+        except OSError as fault:
+            raise OSError(f"{key}: {_why(fault)}") from fault
+        return made
 
 
 class MqttThread:
@@ -75,6 +90,10 @@ class MqttThread:
         self._refused = ""
         self._trouble = ""
         """Why the last connection failed. The log has each new reason once."""
+        self._told: set[str] = set()
+        """What the log has of messages that are too long. Their topics are few: those that were subscribed."""
+        self._kept_too_long: set[str] = set()
+        """The topics on which the broker keeps such a message."""
 
     def start(self) -> None:
         self.wire.state = "connecting"
@@ -88,16 +107,14 @@ class MqttThread:
         self.wire.state = "closed"
 
     def _run(self) -> None:
-        try:
-            from paho.mqtt.client import Client  # noqa: F401, PLC0415 - an extra
-        except ImportError:
-            log.warning(NO_LIBRARY)
-            self.wire.state = "closed"
-            return
         wait_s = FIRST_WAIT_S
         while not self._stopping.is_set():
             try:
                 self._connection()
+            except ImportError:
+                log.warning(NO_LIBRARY)
+                self.wire.state = "closed"
+                return
             except Exception as fault:
                 self._complain(fault)
             finally:
@@ -109,7 +126,7 @@ class MqttThread:
             wait_s = min(2 * wait_s, LONGEST_WAIT_S)
 
     def _complain(self, fault: Exception) -> None:
-        why = reason(fault) if isinstance(fault, OSError) else str(fault)
+        why = _why(fault)
         if why != self._trouble:
             log.warning("mqtt: %s: %s; it is tried again", self.wire.where, why)
         self._trouble = why
@@ -123,6 +140,8 @@ class MqttThread:
         sent = ""
         while not self._stopping.is_set():
             if (result := client.loop(LOOK_S)) != 0:
+                if client.too_long:
+                    self._hang_up(client.too_long)
                 raise ConnectionError(self._refused or f"the connection was lost ({result.name})")
             now_s = time.monotonic()
             if not self._let_in:
@@ -136,41 +155,67 @@ class MqttThread:
         client.disconnect()
         client.loop(LOOK_S)
 
-    def _send(self, client: Client, sent: str) -> str:
+    def _hang_up(self, message: TooLong) -> None:
+        """Raises ConnectionError. A stop counts with any content. A topic that keeps this is not subscribed again."""
+        why = f"a message on {message.topic[:100]!a} is too long to be read"
+        if message.kept:
+            why += ", and the broker keeps it: from now on no order is taken there; empty it, and start the box again"
+            self._kept_too_long.add(message.topic)
+        else:
+            self._desk.do(self._topics.method(message.topic), bytes(LONGEST + 1), kept=False)
+        if why in self._told:
+            self._trouble = why
+        self._told.add(why)
+        raise ConnectionError(why)
+
+    def _send(self, client: BoundedClient, sent: str) -> str:
         """Send the status if it has changed. Returns the status that was sent last."""
         text = json.dumps(self._status(), ensure_ascii=False)
         if text != sent:
             client.publish(self._topics.status, text, retain=True)
         return text
 
-    def _new_client(self) -> Client:
-        from paho.mqtt.client import Client  # noqa: PLC0415 - an extra
-        from paho.mqtt.enums import CallbackAPIVersion  # noqa: PLC0415
+    def _new_client(self) -> BoundedClient:
+        """Raises ImportError, OSError."""
+        from rotator.mqtt.bounded import BoundedClient  # noqa: PLC0415 - its library is an extra
 
-        # A clean session at QoS 0: the broker keeps no order for a box that is away.
-        client = Client(CallbackAPIVersion.VERSION2, clean_session=True, reconnect_on_failure=False)
+        client = BoundedClient()
         client.connect_timeout = CONNECT_S
         client.username_pw_set(self._broker.user, self._broker.password)
         if self._broker.tls:
-            client.tls_set_context(ssl.create_default_context())
+            client.tls_set_context(self._broker.context())
         client.will_set(self._topics.availability, OFFLINE, retain=True)
         client.on_connect = self._on_connect
         client.on_message = self._on_message
         return client
 
-    def _on_connect(self, client: Client, _data: object, _flags: object, code: Any, _properties: object) -> None:
+    def _on_connect(self, client: Any, _data: object, _flags: object, code: Any, _properties: object) -> None:
         if code.is_failure:
             self._refused = f"it refuses the box: {code}"
             return
         self._let_in, self._trouble = True, ""
         self.wire.state = "connected"
-        log.info("mqtt: %s: connected", self.wire.where)
-        client.subscribe(self._topics.orders, qos=0)
+        log.info("mqtt: %s: connected, as %s", self.wire.where, self._topics.base)
+        for topic in self._topics.orders(self._desk.methods):
+            if topic not in self._kept_too_long:
+                client.subscribe(topic, qos=0)
         client.publish(self._topics.availability, ONLINE, retain=True)
         for topic, text in discovery(self._topics, self._may) if self._announces else ():
             client.publish(topic, text, retain=True)
 
-    def _on_message(self, client: Client, _data: object, message: Any) -> None:
+    def _on_message(self, client: Any, _data: object, message: Any) -> None:
         self.wire.came(message.payload[:200])
         answer = self._desk.do(self._topics.method(message.topic), message.payload, kept=message.retain)
         client.publish(self._topics.answer, json.dumps(answer, ensure_ascii=False))
+
+
+def _why(fault: Exception) -> str:
+    match fault:
+        case ssl.SSLCertVerificationError():
+            return f"its certificate is not good: {fault.verify_message} (ca_file names the authority that signed it)"
+        case ssl.SSLError():
+            return f"TLS: {(fault.reason or str(fault)).lower().replace('_', ' ')}"
+        case OSError(errno=int()):
+            return reason(fault)
+        case _:
+            return str(fault)

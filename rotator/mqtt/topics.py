@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -39,9 +39,10 @@ _BUTTONS = {
 
 @dataclass(frozen=True, slots=True)
 class Topics:
-    """`base`: the first words of each topic."""
+    """`base`: the first words of each topic. `stops_all`: the topic of a stop for every box; None: there is none."""
 
     base: str
+    stops_all: str | None = None
 
     @property
     def status(self) -> str:
@@ -55,14 +56,14 @@ class Topics:
     def answer(self) -> str:
         return f"{self.base}/answer"
 
-    @property
-    def orders(self) -> str:
-        """The topics that the box listens to. The last word is a method's name."""
-        return f"{self.base}/do/+"
+    def orders(self, methods: Iterable[str]) -> list[str]:
+        """The topics that the box listens to, where messages may do this."""
+        found = {method: self.order(method) for method in methods}
+        return [*found.values(), *([self.stops_all] if self.stops_all and "stop" in found else [])]
 
     def method(self, topic: str) -> str:
         """The name of the method of a message on this topic."""
-        return topic.removeprefix(f"{self.base}/do/")
+        return "stop" if topic == self.stops_all else topic.removeprefix(f"{self.base}/do/")
 
     def order(self, method: str) -> str:
         return f"{self.base}/do/{method}"
@@ -75,7 +76,7 @@ def discovery(topics: Topics, may: str) -> Iterator[tuple[str, str]]:
     common = {"availability_topic": topics.availability, "device": device, "origin": {"name": "gs232-rotator"}}
 
     def entity(kind: str, name: str, fields: dict[str, Any]) -> tuple[str, str]:
-        whole = {**fields, "unique_id": f"{box}_{name}", "object_id": f"{box}_{name}", **common}
+        whole = {**fields, "unique_id": f"{box}_{name}", "default_entity_id": f"{kind}.{box}_{name}".lower(), **common}
         return f"{PREFIX}/{kind}/{box}/{name}/config", json.dumps(whole, ensure_ascii=False)
 
     for name, fields in _SENSORS.items():

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
+import subprocess
+import sys
+import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -14,8 +18,9 @@ import pytest
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from rotator.box.app import App
 from rotator.config.load import parse
+from rotator.mqtt.bounded import MOST_BYTES
 from rotator.protocols.status_object import as_object
-from tests.boxes import FAST_ROTOR, free_port
+from tests.boxes import FAST_ROTOR, file_with_page, free_port
 from tests.mqtt.conftest import PATIENCE_S, Broker, Listener
 
 NewBroker = Callable[..., Broker]
@@ -45,7 +50,7 @@ path = "{folder}/state.json"
 enabled = false
 [mqtt]
 broker = "127.0.0.1:{port}"
-{more}
+{more if "box =" in more else 'topic = "rotator"' + chr(10) + more}
 [[link]]
 protocol = "gs232b"
 pty = "{folder}/gs232"
@@ -116,12 +121,12 @@ def test_without_leave_it_may_stop_and_no_more(tmp_path: Path, broker: NewBroker
             await until(lambda: bool(answered(client, "stop")))
             assert "without retain" in answered(client, "stop")[0]["error"]
             assert running.status.latched == ""
+            # What it may not order, the box does not even hear.
             await asyncio.to_thread(client.say, "rotator/do/point", '{"azimuth_deg": 90, "elevation_deg": 30}')
-            await until(lambda: bool(answered(client, "point")))
-            assert 'may = "stop"' in answered(client, "point")[0]["error"]
-            assert running.status.wanted_azimuth_deg is None
             await asyncio.to_thread(client.say, "rotator/do/stop", "")
             await until(lambda: running.status.latched == "mqtt")
+            assert not answered(client, "point")
+            assert running.status.wanted_azimuth_deg is None
 
     asyncio.run(main())
 
@@ -163,3 +168,176 @@ def test_a_box_whose_broker_refuses_it_runs_and_says_so(
 
     asyncio.run(main())
     assert "tops3cret" not in caplog.text
+
+
+LONG = "x" * (MOST_BYTES + 1)
+
+
+def test_two_boxes_on_one_broker_hear_each_its_own_orders_and_both_the_stop_of_all(
+    tmp_path: Path, broker: NewBroker, listener: NewListener
+) -> None:
+    port = free_port()
+    broker(port)
+    north, south = tmp_path / "north", tmp_path / "south"
+
+    async def main() -> None:
+        client = listener(port)
+        async with box(north, port, 'box = "north"') as one, box(south, port, 'box = "south"') as other:
+            await until(lambda: client.latest("rotator/north/availability") == "online")
+            await until(lambda: client.latest("rotator/south/availability") == "online")
+            await asyncio.to_thread(client.say, "rotator/north/do/stop", "")
+            await until(lambda: one.status.latched == "mqtt")
+            assert other.status.latched == ""
+            await asyncio.to_thread(client.say, "rotator/all/stop", "at once!")
+            await until(lambda: other.status.latched == "mqtt")
+            assert client.latest("homeassistant/button/rotator_north/stop/config")
+        assert client.latest("rotator/north/availability") == "offline"
+
+    for folder in (north, south):
+        folder.mkdir()
+    asyncio.run(main())
+
+
+@pytest.mark.parametrize("may", ["look", "stop", "move"])
+def test_a_message_that_is_too_long_and_kept_is_never_read_and_the_box_goes_on(
+    tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture, may: str
+) -> None:
+    """It comes with each new connection, before anything else: once told, the box goes on without that topic."""
+    port = free_port()
+    broker(port)
+    kept = {"look": "point", "stop": "stop", "move": "point"}[may]
+
+    async def main() -> None:
+        client = listener(port)
+        await asyncio.to_thread(client.say, f"rotator/do/{kept}", LONG, retain=True)
+        async with box(tmp_path, port, f'may = "{may}"') as running:
+            await until(lambda: client.latest("rotator/availability") == "online")
+            if may != "look":
+                await until(lambda: "the broker keeps it" in caplog.text)
+                # The will of the connection that was ended, and then the next one, which stays.
+                await until(lambda: client.heard["rotator/availability"][-2:] == ["offline", "online"])
+            told = client.latest("rotator/status")
+            await until(lambda: client.latest("rotator/status") != told)
+            assert running.status.latched == ""
+            if may == "move":
+                await asyncio.to_thread(client.say, "rotator/do/stop", "")
+                await until(lambda: running.status.latched == "mqtt")
+
+    asyncio.run(main())
+    told = [each for each in caplog.messages if "too long" in each]
+    where = (
+        f"mqtt: 127.0.0.1:{port}: a message on 'rotator/do/{kept}' is too long to be read, and the broker keeps it: "
+    )
+    what = "from now on no order is taken there; empty it, and start the box again; it is tried again"
+    assert told == ([] if may == "look" else [where + what])
+
+
+def test_a_stop_that_is_too_long_stops_and_is_told_once(
+    tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture
+) -> None:
+    port = free_port()
+    broker(port)
+
+    async def main() -> None:
+        client = listener(port)
+        async with box(tmp_path, port) as running:
+            for _ in range(2):
+                await until(lambda: client.latest("rotator/availability") == "online")
+                ends = client.heard["rotator/availability"].count("offline")
+                await asyncio.to_thread(client.say, "rotator/do/stop", LONG)
+                await until(lambda: running.status.latched == "mqtt")
+                await until(lambda ends=ends: client.heard["rotator/availability"].count("offline") > ends)
+            await until(lambda: client.latest("rotator/availability") == "online")
+
+    asyncio.run(main())
+    assert len([each for each in caplog.messages if "too long" in each]) == 1
+
+
+def test_250_megabytes_on_the_broker_take_no_memory_of_a_box_of_400(
+    tmp_path: Path, broker: NewBroker, listener: NewListener
+) -> None:
+    """The program itself, in a process of its own that may have 400 MB at all."""
+    port, page = free_port(), free_port()
+    broker(port)
+    client = listener(port)
+    client.say("rotator/do/point", "x" * 250_000_000, retain=True)
+    file = tmp_path / "r.toml"
+    file.write_text(
+        file_with_page(tmp_path, page, f'[mqtt]\nbroker = "127.0.0.1:{port}"\ntopic = "rotator"\nmay = "move"\n')
+    )
+    limited = (
+        "import os, resource, sys; resource.setrlimit(resource.RLIMIT_DATA, (400 << 20,) * 2); "
+        "os.execv(sys.argv[1], sys.argv[1:])"
+    )
+    command = (sys.executable, "-c", limited, sys.executable, "-m", "rotator", "run", "--plain", "--config", str(file))
+    with (
+        (tmp_path / "errors").open("wb") as said,
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=said, cwd=tmp_path) as running,
+    ):
+        try:
+            give_up_s = time.monotonic() + PATIENCE_S
+            while client.heard.get("rotator/availability", [])[-2:] != ["offline", "online"]:
+                assert running.poll() is None
+                assert time.monotonic() < give_up_s, (tmp_path / "errors").read_text()
+            status = Path(f"/proc/{running.pid}/status").read_text()
+        finally:
+            running.terminate()
+    assert running.returncode == 0
+    (peak_kb,) = re.findall(r"VmHWM:\s+(\d+) kB", status)
+    assert int(peak_kb) < 150_000
+
+
+@pytest.fixture
+def certificates(tmp_path: Path, need_program: Callable[[str, str], str]) -> Path:
+    """A folder with an authority, a certificate of 127.0.0.1 and one of the box, each with its key."""
+    openssl = need_program("openssl", "openssl")
+
+    def run(*words: str) -> None:
+        subprocess.run([openssl, *words], cwd=tmp_path, check=True, capture_output=True)
+
+    new = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
+    run("req", "-x509", *new, "-subj", "/CN=shack", "-keyout", "ca.key", "-out", "ca.pem")
+    (tmp_path / "names").write_text("subjectAltName=IP:127.0.0.1")
+    for name in ("broker", "box"):
+        run("req", *new, "-subj", f"/CN={name}", "-keyout", f"{name}.key", "-out", f"{name}.csr")
+        signed = ("-CA", "ca.pem", "-CAkey", "ca.key", "-CAcreateserial", "-extfile", "names", "-out", f"{name}.pem")
+        run("x509", "-req", "-in", f"{name}.csr", *signed)
+    run("ec", "-aes256", "-passout", "pass:x", "-in", "box.key", "-out", "locked.key")
+    (tmp_path / "empty.pem").write_text("")
+    return tmp_path
+
+
+OF_THE_BOX = 'ca_file = "{0}/ca.pem"\ncert_file = "{0}/box.pem"\n'
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        (OF_THE_BOX + 'key_file = "{0}/box.key"', "connected, as rotator"),
+        ("", "its certificate is not good: "),
+        ('ca_file = "{0}/none.pem"', "ca_file: No such file or directory; it is tried again"),
+        ('ca_file = "{0}/empty.pem"', "ca_file: TLS: no certificate or crl found; it is tried again"),
+        ('ca_file = "{0}/broker.key"', "ca_file: TLS: no certificate or crl found; it is tried again"),
+        ('ca_file = "{0}/ca.pem"', "the connection was lost"),
+        (OF_THE_BOX, "cert_file, key_file: TLS: "),
+        (OF_THE_BOX + 'key_file = "{0}/broker.key"', "cert_file, key_file: TLS: key values mismatch"),
+        (OF_THE_BOX + 'key_file = "{0}/locked.key"', "cert_file, key_file: TLS: "),
+    ],
+)
+# The library leaves the socket of a handshake that failed to the collector.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_a_broker_of_one_s_own_authority_that_wants_a_certificate(
+    broker: NewBroker, certificates: Path, caplog: pytest.LogCaptureFixture, keys: str, said: str
+) -> None:
+    port = free_port()
+    files = {"cafile": "ca.pem", "certfile": "broker.pem", "keyfile": "broker.key"}
+    settings = "".join(f"{key} {certificates / name}\n" for key, name in files.items())
+    broker(port, f"allow_anonymous true\n{settings}require_certificate true")
+    caplog.set_level("INFO")
+
+    async def main() -> None:
+        async with box(certificates, port, f"tls = true\n{keys.format(certificates)}"):
+            await until(lambda: said in caplog.text)
+
+    asyncio.run(main())
+    assert "Traceback" not in caplog.text

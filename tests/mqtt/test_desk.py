@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import hypothesis.strategies as st
 import pytest
 from hypothesis import given
+from pydantic import ValidationError
 
+from rotator.config.mqtt import MqttTable
 from rotator.exchange.orders import Aim, Order, Park, Stop
 from rotator.exchange.sources import MQTT, Refusal, Source
 from rotator.exchange.status import AxisStatus, Status
+from rotator.mqtt.build import topics_of
 from rotator.mqtt.desk import LONGEST, Desk
 from rotator.mqtt.topics import Topics, discovery
 from rotator.protocols.methods import METHODS
@@ -69,6 +73,7 @@ def test_a_message_that_the_broker_has_kept_orders_nothing(name: str) -> None:
 
 @pytest.mark.parametrize(("may", "obeys"), [("look", set()), ("stop", {"stop"})])
 def test_what_may_only_look_or_stop_does_no_more(may: str, obeys: set[str]) -> None:
+    assert set(desk(Box(), may).methods) == obeys, "so many topics does it subscribe"
     for method in METHODS:
         box = Box()
         answer = desk(box, may).do(method.name, POINT, kept=False)
@@ -115,6 +120,10 @@ def test_each_entity_has_an_id_of_its_own_and_topics_of_the_box() -> None:
     assert len({each["unique_id"] for each in said.values()}) == len(said)
     for topic, each in said.items():
         assert each["availability_topic"] == "shack/rotator/availability"
+        # Home Assistant warns of object_id since 2025.10, and drops it.
+        assert "object_id" not in each
+        _, kind, box, name, _ = topic.split("/")
+        assert each["default_entity_id"] == f"{kind}.{box}_{name}"
         assert {each.get("state_topic"), each.get("command_topic")} & {
             "shack/rotator/status",
             f"shack/rotator/do/{topic.split('/')[-2]}",
@@ -124,3 +133,48 @@ def test_each_entity_has_an_id_of_its_own_and_topics_of_the_box() -> None:
 def test_the_method_of_a_topic_is_its_last_word() -> None:
     topics = Topics("shack/rotator")
     assert topics.method(topics.order("point")) == "point"
+
+
+@pytest.mark.parametrize(
+    ("keys", "base", "stops_all"),
+    [
+        ({"topic": "rotator"}, "rotator", None),
+        ({"topic": "shack/north"}, "shack/north", None),
+        ({"box": "north"}, "rotator/north", "rotator/all/stop"),
+        ({"box": "north", "topic": "shack"}, "shack/north", "shack/all/stop"),
+    ],
+)
+def test_a_topic_of_the_file_stays_as_it_was_and_a_name_has_its_own(
+    keys: dict[str, str], base: str, stops_all: str | None
+) -> None:
+    topics = topics_of(MqttTable(broker="127.0.0.1:1883", **keys))
+    assert (topics.base, topics.stops_all) == (base, stops_all)
+    assert topics.orders(["stop", "park"])[:2] == [f"{base}/do/stop", f"{base}/do/park"]
+    assert topics.orders(["stop"])[1:] == ([stops_all] if stops_all else [])
+    assert topics.orders(["park"]) == [f"{base}/do/park"]
+    assert stops_all is None or topics.method(stops_all) == "stop"
+
+
+def test_without_either_the_machine_s_name_keeps_two_boxes_apart() -> None:
+    topics = topics_of(MqttTable(broker="127.0.0.1:1883"))
+    assert re.fullmatch(r"rotator/[A-Za-z0-9_-]+", topics.base)
+    assert topics.base not in ("rotator/raspberrypi", "rotator/localhost", "rotator/all")
+
+
+@pytest.mark.parametrize(
+    ("keys", "says"),
+    [
+        ({"box": "all"}, '"all" is the name of every box: take another'),
+        ({"box": "north/1"}, '"north/1" must be a word of letters, digits, - and _'),
+        ({"box": "#"}, '"#" must be a word of letters, digits, - and _'),
+        ({"box": ""}, '"" must be a word of letters, digits, - and _'),
+        ({"topic": "+"}, '"+" must be words of letters'),
+        ({"ca_file": "x"}, "ca_file goes with tls = true"),
+        ({"cert_file": "x"}, "cert_file goes with tls = true"),
+        ({"key_file": "x", "tls": True}, "key_file goes with cert_file"),
+    ],
+    ids=str,
+)
+def test_keys_that_cannot_be_say_so(keys: dict[str, Any], says: str) -> None:
+    with pytest.raises(ValidationError, match=re.escape(says)):
+        MqttTable(broker="127.0.0.1:1883", **keys)
