@@ -29,16 +29,15 @@ class MqttTable(Table):
     tls: bool = False
     """Encrypted; the broker's certificate must be good."""
     ca_file: str | None = Field(None, min_length=1)
-    """With tls: the certificate of the authority that signed the broker's; left out, those that the system trusts."""
+    """The authority that signed the broker's certificate; left out, those that the system trusts."""
     cert_file: str | None = Field(None, min_length=1)
-    """With tls: the box's own certificate, where the broker wants one."""
+    """The box's own certificate, where the broker wants one."""
     key_file: str | None = Field(None, min_length=1)
-    """The key of that certificate, without a passphrase; left out, it is in cert_file."""
+    """Its key, without passphrase; left out, it is in cert_file."""
     box: str | None = Field(None, max_length=60)
-    """The box's name on the broker: topics rotator/NAME/…, and rotator/all/stop stops every box. Left out, the
-    machine's name."""
+    """Topics are rotator/BOX/…; left out, BOX is the machine's name. rotator/all/stop stops every box."""
     topic: str | None = Field(None, max_length=100)
-    """What its topics begin with in place of rotator; without box, in place of the name too."""
+    """In place of rotator; without box, in place of rotator/BOX."""
     may: Literal["look", "stop", "move"] = "stop"
     """What messages may do: nothing; stop; or all that the page can. `move` is for a broker with passwords."""
     discovery: bool = True

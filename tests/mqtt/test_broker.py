@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -232,6 +233,10 @@ def test_a_message_that_is_too_long_and_kept_is_never_read_and_the_box_goes_on(
     assert told == ([] if may == "look" else [where + what])
 
 
+def has_ended(client: Listener, before: int) -> bool:
+    return client.heard["rotator/availability"].count("offline") > before
+
+
 def test_a_stop_that_is_too_long_stops_and_is_told_once(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -246,7 +251,7 @@ def test_a_stop_that_is_too_long_stops_and_is_told_once(
                 ends = client.heard["rotator/availability"].count("offline")
                 await asyncio.to_thread(client.say, "rotator/do/stop", LONG)
                 await until(lambda: running.status.latched == "mqtt")
-                await until(lambda ends=ends: client.heard["rotator/availability"].count("offline") > ends)
+                await until(partial(has_ended, client, ends))
             await until(lambda: client.latest("rotator/availability") == "online")
 
     asyncio.run(main())

@@ -147,7 +147,7 @@ def test_the_method_of_a_topic_is_its_last_word() -> None:
 def test_a_topic_of_the_file_stays_as_it_was_and_a_name_has_its_own(
     keys: dict[str, str], base: str, stops_all: str | None
 ) -> None:
-    topics = topics_of(MqttTable(broker="127.0.0.1:1883", **keys))
+    topics = topics_of(MqttTable.model_validate({"broker": "127.0.0.1:1883"} | keys))
     assert (topics.base, topics.stops_all) == (base, stops_all)
     assert topics.orders(["stop", "park"])[:2] == [f"{base}/do/stop", f"{base}/do/park"]
     assert topics.orders(["stop"])[1:] == ([stops_all] if stops_all else [])
@@ -177,4 +177,4 @@ def test_without_either_the_machine_s_name_keeps_two_boxes_apart() -> None:
 )
 def test_keys_that_cannot_be_say_so(keys: dict[str, Any], says: str) -> None:
     with pytest.raises(ValidationError, match=re.escape(says)):
-        MqttTable(broker="127.0.0.1:1883", **keys)
+        MqttTable.model_validate({"broker": "127.0.0.1:1883"} | keys)
