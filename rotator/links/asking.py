@@ -40,6 +40,9 @@ class AskingLink:
         self._host = host
         self._port = port
         self._inquiry = inquiry
+        self._asks: Inquiry | None = None
+        """What is asked; None: begin anew. It outlasts a connection that this side has cut for a bad answer or for none:
+        the server has gone on meanwhile, and what it said before still counts."""
         self._every_s = every_s
         self._silence_s = silence_s
         self._first_retry_s = self._retry_s = retry_s
@@ -73,8 +76,10 @@ class AskingLink:
             async with asyncio.timeout(self._silence_s):
                 reader, writer = await asyncio.open_connection(self._host, self._port)
         except TimeoutError:
+            self._asks = None  # it may have been started anew
             return "cannot be reached", f": no answer within {self._silence_s:g} s"
         except (OSError, UnicodeError) as fault:
+            self._asks = None
             return "cannot be reached", f": {reason(fault)}"
         try:
             return await self._keep_asking(reader, writer)
@@ -83,7 +88,7 @@ class AskingLink:
 
     async def _keep_asking(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> tuple[str, str]:
         """Ask until the connection ends. Returns the reason, and a detail for the log."""
-        inquiry = self._inquiry()
+        inquiry, self._asks = self._asks or self._inquiry(), None
         clock = asyncio.get_running_loop().time
         while True:
             asked_s = clock()
@@ -93,10 +98,12 @@ class AskingLink:
                     writer.write(question)
                     await self._read_answer(inquiry, reader)
             except TimeoutError:
+                self._asks = inquiry
                 return f"gives no answer within {self._silence_s:g} s", ""
             except EOFError:
                 return "has closed the connection", ""
             except NotUnderstood as fault:
+                self._asks = inquiry
                 return "does not speak the protocol", f": {fault}"
             except OSError as fault:
                 return "is gone", f": {reason(fault)}"

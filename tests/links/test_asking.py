@@ -171,6 +171,25 @@ def test_a_server_of_no_use_moves_nothing_and_is_told_once(  # noqa: PLR0917
     asyncio.run(talk())
 
 
+@pytest.mark.parametrize("bad", [b"HTTP/1.1 400 Bad Request\r\n", b"\x00" * 200, b"RPRT -6\n", b"999.00\n20.00\n", b"10.00\n", None])
+def test_after_a_bad_answer_a_good_one_is_compared_with_the_last_good_one(
+    link: AskingLink, port: int, running: Running, bench: Any, bad: bytes | None
+) -> None:
+    """The other rotor has turned meanwhile, and stands: this antenna has to get there too."""
+
+    async def talk() -> None:
+        async with listening(port, Server()) as server, running(link):
+            await server.questions(3)
+            server.say = bad
+            await server.questions(2)
+            server.say = b"300.00\n80.00\n"
+            await server.questions(3)
+            assert bench.drives() == (1, 1)
+            assert bench.loop.status.wanted_azimuth_deg == 300
+
+    asyncio.run(talk())
+
+
 def test_a_server_that_knows_no_position_is_asked_on_and_told_once(
     link: AskingLink, port: int, running: Running, bench: Any, log: Any
 ) -> None:
