@@ -45,6 +45,10 @@ def fifth_of_a_core(pid: int) -> Iterator[Path]:
         try:
             for name, value in limits.items():
                 (group / name).write_text(value)
+            # Some kernels give real-time threads a budget of their own in each group: the same fifth.
+            for name, time_us in (("cpu.rt_period_us", PERIOD_US), ("cpu.rt_runtime_us", quota_us)):
+                if (group / name).exists():
+                    (group / name).write_text(str(time_us))
             (group / "cgroup.procs").write_text(str(pid))
         except OSError as fault:
             raise NoQuotaError(f"no quota of CPU time: {fault}") from fault

@@ -1,5 +1,7 @@
 """The box on a fifth of a core: run `python -m benchmarks.small_machine [MINUTES]`, as root; 60 minutes unless told.
 
+`--beside 3`: three processes that compile share that fifth. `--as-service`: with the unit's priorities.
+
 The box runs as a process of its own, in real time, on its simulated station, under a quota of CPU time. A client
 outside of the quota flies the shipped passes of real satellites, an order a second, asks once a second, jogs and stops.
 Relay edges carry the time at which the simulated line changed. Each kind of rotor gets those minutes, one after the
@@ -11,8 +13,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import random
+import resource
 import select
 import statistics
 import subprocess
@@ -22,6 +26,7 @@ import time
 import tomllib
 import tty
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import cycle
 from pathlib import Path
@@ -44,7 +49,10 @@ JOG_S = 0.6
 """So long at least a jog lasts; with the motor's coast before it a relay has closed by then."""
 STOP_EVERY = 10
 """A jog and a stop come each so many seconds."""
-ANSWER_S = 5.0
+ANSWER_S = 30.0
+NICE, RTTIME_US = -10, 500_000
+"""LimitRTTIME of install/rotator.service, and the niceness whose share is that of its CPUWeight against one process."""
+COMPILES = "s = open(__import__('argparse').__file__).read()\nwhile True: compile(s, 's', 'exec')"
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,14 +105,46 @@ class _Client:
         time.sleep(max(0.0, end_s - time.monotonic()))
 
 
-def measure(seconds: float, kind: str = "relay-pot", *, stop_every: int = STOP_EVERY) -> Result:
-    """Raises NoQuotaError."""
+def _as_service(pid: int) -> None:
+    """Give a process that has just begun, and has no threads yet, what install/rotator.service gives the box."""
+    resource.prlimit(pid, resource.RLIMIT_RTTIME, (RTTIME_US, RTTIME_US))
+    os.setpriority(os.PRIO_PROCESS, pid, NICE)
+
+
+@contextmanager
+def _compiling(count: int, group: Path) -> Iterator[None]:
+    """So many processes in the group, each of which compiles without a pause."""
+    hogs = [subprocess.Popen([sys.executable, "-c", COMPILES]) for _ in range(count)]
+    try:
+        for hog in hogs:
+            (group / "cgroup.procs").write_text(str(hog.pid))
+        yield
+    finally:
+        for hog in hogs:
+            hog.kill()
+            hog.wait()
+
+
+def measure(
+    seconds: float,
+    kind: str = "relay-pot",
+    *,
+    stop_every: int = STOP_EVERY,
+    beside: int = 0,
+    as_service: bool = False,
+) -> Result:
+    """`beside`: processes that compile in the same fifth. `as_service`: with the unit's priorities.
+
+    Raises NoQuotaError.
+    """
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         config = folder / "rotator.toml"
         config.write_text(_config(folder, kind))
         command = [sys.executable, "-m", "benchmarks.watched_box", str(config)]
         box = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        if as_service:
+            _as_service(box.pid)
         try:
             while not (folder / "gs232").exists():
                 if box.poll() is not None:
@@ -115,7 +155,7 @@ def measure(seconds: float, kind: str = "relay-pot", *, stop_every: int = STOP_E
             if kind == "relay-pulse":  # a person says where it stands, as after homing
                 _confirm(folder)
             orders = _passes()
-            with fifth_of_a_core(box.pid):
+            with fifth_of_a_core(box.pid) as group, _compiling(beside, group):
                 before_s, started_s = cpu_s(box.pid), time.monotonic()
                 for count in range(round(seconds)):
                     client.second(count, stop_every, orders)
@@ -162,10 +202,13 @@ def _passes() -> Iterator[str]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("minutes", type=float, nargs="?", default=60.0, help="for each kind of rotor")
-    minutes: float = parser.parse_args().minutes
+    parser.add_argument("--beside", type=int, default=0, help="processes that compile in the same fifth")
+    parser.add_argument("--as-service", action="store_true", help="with the priorities of the service's unit")
+    given = parser.parse_args()
+    minutes: float = given.minutes
     for kind in KINDS:
         try:
-            result = measure(60.0 * minutes, kind)
+            result = measure(60.0 * minutes, kind, beside=given.beside, as_service=given.as_service)
         except NoQuotaError as fault:
             raise SystemExit(str(fault)) from None
         _tell(kind, minutes, result)
@@ -174,7 +217,7 @@ def main() -> None:
 def _tell(kind: str, minutes: float, result: Result) -> None:
     print(f"{kind}: {minutes:g} minutes on a fifth of a core, {100 * result.used:.1f} % of a core used")
     for name, values in (("S to relay off", result.stops.after_ms), ("C2 to its whole answer", result.answers_ms)):
-        ranked = sorted(values)
+        ranked = sorted(values) or [math.inf]
         p99_ms = ranked[int(0.99 * (len(ranked) - 1))]
         print(f"{name:24} median {statistics.median(ranked):6.2f} p99 {p99_ms:6.2f} worst {ranked[-1]:7.2f} ms")
     print(f"stops without effect: {result.stops.unmet} ({result.stops.idle} more had no relay to open)")

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 # --- values that all drivers share
 
@@ -99,6 +99,15 @@ class AngleSensor(Protocol):
 
         May take some milliseconds. Raises HardwareError when the device does not answer; the next call tries again.
         """
+
+
+@runtime_checkable
+class KnowsSince(Protocol):
+    """An angle sensor whose next reading may be older than the call: it is the latest answer of another thread."""
+
+    @property
+    def since_s(self) -> float:
+        """That reading is of no earlier moment."""
 
 
 class AnalogInputs(Protocol):

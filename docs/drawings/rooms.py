@@ -38,6 +38,7 @@ CAPTIONS = {
     "rotator.exchange": "orders, status",
     "hw.ports": "the interfaces",
     "hw.interpolation": "points and lines",
+    "hw.urgent": "threads that go first",
     "hw.buses": "GPIO, I2C, SPI",
     "hw.chips": "one file a chip",
     "hw.drives": "what turns motors",

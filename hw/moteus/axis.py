@@ -185,6 +185,7 @@ class MoteusAxis:
             return None
         self._next_s = now_s + (MOVING_EVERY_S if self.wish is Wish.AIM or self.moving or self.busy else PARKED_EVERY_S)
         self._errands.expire(now_s)
+        self.hearing.ordered(now_s)
         # A silent controller may have lost its supply, and its position with it: ask for its state before it may move.
         if self.hearing.missed or self.answer is None:
             return Query()

@@ -21,6 +21,7 @@ from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, SerialPort, library
 from hw.moteus.wire import Wire
 from hw.ports import Axis, HardwareError
+from hw.urgent import hurry
 
 log = logging.getLogger(__name__)
 
@@ -96,6 +97,7 @@ class MoteusBus:
         self._logged_s, self._unsaid = now_s, 0
 
     def _run(self) -> None:
+        hurry()
         wait_s = BACK_OFF_S[0]
         while not self._closing.is_set():
             self._lively = False

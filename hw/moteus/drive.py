@@ -17,6 +17,18 @@ from hw.moteus.orders import Answer, MoteusSpec, Order
 from hw.ports import AngleSource, Axis, HardwareError
 
 
+class MoteusAngle(DriveAngle):
+    """Its reading is the controller's latest answer."""
+
+    def __init__(self, drive: MoteusDrive, axis: Axis, since_s: Callable[[], float]) -> None:
+        super().__init__(drive, axis)
+        self._since_s = since_s
+
+    @property
+    def since_s(self) -> float:
+        return self._since_s()
+
+
 class MoteusDrive:
     """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock. `look_only`: only
     query the controllers.
@@ -86,8 +98,8 @@ class MoteusDrive:
 
     # --- how it is
 
-    def sensor(self, axis: Axis) -> DriveAngle:
-        return DriveAngle(self, axis)
+    def sensor(self, axis: Axis) -> MoteusAngle:
+        return MoteusAngle(self, axis, lambda: self._axes[axis].hearing.asked_s)
 
     def angle_deg(self, axis: Axis) -> float:
         """Degrees on the rotor's own scale. Raises HardwareError: no answer, or its position is unknown."""

@@ -22,13 +22,20 @@ class Hearing:
         """Seconds of silence before the latest answer."""
         self.came_back = False
         """Whether the order before the latest answer was not answered."""
-        self._heard_s = -math.inf
+        self.asked_s = -math.inf
+        """When the order went out that the latest answer answers: its position is of no earlier moment."""
+        self._heard_s = self._ordered_s = -math.inf
 
     def silent_s(self, now_s: float) -> float:
         """Seconds since its last answer; infinite: it never answered."""
         return now_s - self._heard_s
 
+    def ordered(self, now_s: float) -> None:
+        """An order goes out."""
+        self._ordered_s = now_s
+
     def note(self, answer: Answer, now_s: float) -> None:
+        self.asked_s = self._ordered_s
         self.came_back = self.missed and self.answer is not None
         self.gap_s = self.silent_s(now_s)
         self.answer, self._heard_s, self.missed = answer, now_s, False

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from hw.ports import HardwareError
+from hw.urgent import hurry
 
 log = logging.getLogger(__name__)
 
@@ -103,6 +104,7 @@ class Guard:
         log.error("%s", f"{self._operator_must}: {text}; trying again" if self._operator_must else text, exc_info=bug)
 
     def _watch(self) -> None:
+        hurry()
         while not self._stopping.is_set():
             try:
                 self._drive.wait_until_due(PATIENCE_S)

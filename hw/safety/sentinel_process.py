@@ -26,6 +26,7 @@ from hw.buses.gpio import real_gpiod
 from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
+from hw.urgent import hurry
 
 SILENCE_S = LONGEST_LEASE_S + 0.2
 """Seconds of silence after which the program hangs: it writes `+` or `-` again before its longest lease ends."""
@@ -93,6 +94,7 @@ def _watch(lines: RelayLines) -> int:
         pass  # a missing chip or permission must show before the first relay closes
     # Without the right to lock memory this fails, and the sentinel is only slower when memory has run out.
     ctypes.CDLL(None).mlockall(_MCL_CURRENT_AND_FUTURE)
+    hurry()
     os.write(sys.stdout.fileno(), READY)
     watch(
         sys.stdin.fileno(),

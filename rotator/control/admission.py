@@ -6,12 +6,13 @@ stream is silenced; it is answered like any other. The controller checks again, 
 
 from __future__ import annotations
 
-from hw.ports import AngleSource, Axis
+from hw.ports import AngleSource, Axis, Direction
 from rotator.control.refused import measures_its_angle, needs_no_homing, no_relay_in_doubt, turns_while_calibrated
 from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount, Unreachable
+from rotator.exchange.faults import Missing
 from rotator.exchange.flight_order import Fly
-from rotator.exchange.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, RelaysChecked
+from rotator.exchange.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, RelaysChecked, RunTimed
 from rotator.exchange.sources import Refusal
 from rotator.exchange.status import Status
 
@@ -25,11 +26,13 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
         case Aim():
             stands = places(*((axis.target_deg, axis.angle_deg) for axis in (status.azimuth, status.elevation)))
             aim = joined(mount, order, (status.wanted_azimuth_deg, status.wanted_elevation_deg), stands)
-            return _uncalibrated(order, status) or _unreachable(((aim.azimuth_deg, aim.elevation_deg),), mount)
+            return _unable(order, status) or _unreachable(((aim.azimuth_deg, aim.elevation_deg),), mount)
         case LoadTimed(_, points):
-            return _uncalibrated(order, status) or _unreachable(points, mount)
+            return _unable(order, status) or _unreachable(points, mount)
         case Park() | Fly():
-            return _uncalibrated(order, status)
+            return _unable(order, status)
+        case Jog(direction=Direction.PLUS | Direction.MINUS) | RunTimed():
+            return _faulty(order, status)
         case Calibrate(axis) if status.moving:
             return Refusal(turns_while_calibrated(axis.value))
         case Home(axis) if status.axis(axis).source is not AngleSource.COUNTED:
@@ -46,25 +49,46 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return None
 
 
-def _uncalibrated(order: Order, status: Status) -> Refusal | None:
-    """The refusal of an order whose axes are all uncalibrated, else None: one calibrated axis is enough to admit it."""
-    axes = _axes_of(order)
-    missing = [
-        f"{axis.value} needs {status.axis(axis).uncalibrated}" for axis in axes if status.axis(axis).uncalibrated
+def _unable(order: Order, status: Status) -> Refusal | None:
+    """The refusal of an order that needs an axis which cannot obey now: after `RPRT 0` a program would believe that the
+    antenna follows. What stops is never refused, nor a storm park: what can go down goes down. A flight goes on where
+    its fault ends."""
+    match order:
+        case Aim(engaged=False) | Park(storm=True) | Fly():
+            return _uncalibrated(order, status, ())
+        case Aim(_, elevation_deg) if elevation_deg:
+            needed = _axes_of(order)
+        case _:
+            # A program that knows no elevation sends 0.
+            needed = tuple(axis for axis in _axes_of(order) if axis is Axis.AZIMUTH)
+    return _faulty(order, status) or _uncalibrated(order, status, needed)
+
+
+def _faulty(order: Order, status: Status) -> Refusal | None:
+    """The refusal of an order for an axis that a fault has stopped."""
+    faults = [
+        f"{axis.value} is stopped by a fault: {fault.name}"
+        for axis in _axes_of(order)
+        if (fault := status.axis(axis).fault)
     ]
-    return Refusal("UNCALIBRATED: " + "; ".join(missing)) if len(missing) == len(axes) else None
+    return Refusal("; ".join(faults), faulty=True) if faults else None
 
 
-def only_faulted(order: Order, status: Status) -> bool:
-    """Whether the order moves axes, and a fault holds every one of them."""
+def _uncalibrated(order: Order, status: Status, needed: tuple[Axis, ...]) -> Refusal | None:
+    """The refusal of an order where an axis that it needs, or each that it moves, is uncalibrated, or one has to be
+    homed again. None: it is admitted."""
     axes = _axes_of(order)
-    return bool(axes) and all(status.axis(axis).fault for axis in axes)
+    missing = {
+        axis: f"{axis.value} needs {status.axis(axis).uncalibrated}" for axis in axes if status.axis(axis).missing
+    }
+    lacks = any(axis in needed or Missing.HOMING in status.axis(axis).missing for axis in missing)
+    return Refusal("UNCALIBRATED: " + "; ".join(missing.values())) if lacks or len(missing) == len(axes) else None
 
 
 def _axes_of(order: Order) -> tuple[Axis, ...]:
     """The axes that the order moves."""
     match order:
-        case Aim(_, None):
+        case Aim(_, None) | RunTimed():
             return (Axis.AZIMUTH,)
         case Aim(None, _):
             return (Axis.ELEVATION,)

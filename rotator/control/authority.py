@@ -161,6 +161,10 @@ class Authority:
             self._ignored[source.link] = ignored
         return streamed
 
+    def hear(self, source: Source, now_s: float, aims: Coordinates | None) -> None:
+        """`source` sends an order that was refused: it counts as sending."""
+        self._senders.note(source, now_s, aims)
+
     def may_move(
         self,
         source: Source,

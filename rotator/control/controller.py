@@ -45,6 +45,7 @@ from rotator.exchange.orders import (
     Speed,
     Stop,
     Take,
+    Unheeded,
 )
 from rotator.exchange.sources import PAGE, PANEL, TRACKER, Source
 from rotator.exchange.status import AxisStatus, Status
@@ -191,6 +192,8 @@ class Controller:
                 self._movements.let_go(source)
                 if self._authority.left(source, now_s):
                     self._movements.end_stream()
+            case Unheeded(refused):
+                self._authority.hear(source, now_s, aims_of(refused))
             case ClearTimed():
                 self._movements.timed.clear()
             case Speed(level):

@@ -5,6 +5,7 @@ Knows where a Raspberry Pi and systemd report them. Does not know the configurat
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
@@ -16,6 +17,8 @@ UNDER_VOLTAGE = 1 << 0
 SINCE_START = 16
 HOT_C = 80.0
 """At this temperature a Pi begins to slow down."""
+POLICY_AT = 41 - 3
+"""Of the scheduling policy in /proc/PID/task/TID/stat: field 41 (proc_pid_stat(5)), and the third follows the name."""
 
 SUPPLY = "Use the Pi's own power supply and a short, thick cable, and feed relays and display from another one."
 
@@ -109,7 +112,8 @@ def service(machine: Machine) -> Iterator[Finding]:
     if machine.unit is None:
         yield skipped("not installed: rotator run is started by hand")
         return
-    report = machine.says("systemctl", "show", "rotator.service", "--property=UnitFileState,ActiveState,SubState")
+    asked = "--property=UnitFileState,ActiveState,SubState,MainPID"
+    report = machine.says("systemctl", "show", "rotator.service", asked)
     if report is None:
         yield skipped("installed; systemd does not answer here")
         return
@@ -122,5 +126,18 @@ def service(machine: Machine) -> Iterator[Finding]:
         yield warn(found, "sudo systemctl start rotator")
     elif enabled not in ("enabled", "enabled-runtime"):
         yield warn(found, "It will not start by itself after a power cut: sudo systemctl enable rotator")
+    elif _goes_first(machine, state.get("MainPID", "0")) is False:
+        yield warn(
+            f"{found}; the threads that stop a motor have no priority over other programs",
+            "A busy computer then stops the antenna for moments: sudo systemctl edit rotator must not take away "
+            "LimitRTPRIO=1 and LimitRTTIME=500ms.",
+        )
     else:
         yield fine(found)
+
+
+def _goes_first(machine: Machine, pid: str) -> bool | None:
+    """Whether threads of this process are in the kernel's real-time class; None: that cannot be seen."""
+    stats = [machine.text(path) for path in machine.glob(f"/proc/{pid}/task/*/stat")]
+    policies = [stat.rpartition(")")[2].split()[POLICY_AT] for stat in stats if stat]
+    return str(os.SCHED_RR) in policies if policies else None

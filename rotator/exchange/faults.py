@@ -131,6 +131,9 @@ class FaultKind(Enum):
         return self.text.replace(" ", "-")
 
 
+LATE = frozenset({FaultKind.SENSOR_LATE, FaultKind.CONTROL_LATE})
+"""The computer was too slow, or a bus hung for a moment: nothing is known to be wrong with the axis itself."""
+
 POT = "pot"
 OF_ANOTHER_SENSOR = {
     FaultKind.POT_OPEN: ("SENSOR shows no angle", "NO ANGLE", "Check the SENSOR's wires, its supply and its place"),

@@ -172,6 +172,13 @@ class Leave:
 
 
 @dataclass(frozen=True, slots=True)
+class Unheeded:
+    """This order was refused because of the state of an axis. It moves nothing, but its sender has not paused."""
+
+    order: Order
+
+
+@dataclass(frozen=True, slots=True)
 class Take:
     """A person takes the antenna: it stops, and the person holds it until `GiveBack`. Programs' orders have no effect.
 
@@ -192,4 +199,4 @@ Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark | T
 Pointing = Aim | Fly | LoadTimed | RunTimed | Park
 """Orders that point the antenna somewhere."""
 
-Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave | TakeTurn | Personal
+Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave | Unheeded | TakeTurn | Personal

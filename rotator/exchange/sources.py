@@ -56,5 +56,7 @@ class Refusal:
     reason: str
     forbidden: bool = False
     """Whether the sender may give no orders at all."""
+    faulty: bool = False
+    """Whether an axis that the order needs is stopped by a fault."""
     out_of_range: bool = False
     """Whether the order has an angle outside a range. A tracking program repeats such an order for a long time."""

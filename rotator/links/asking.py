@@ -41,8 +41,8 @@ class AskingLink:
         self._port = port
         self._inquiry = inquiry
         self._asks: Inquiry | None = None
-        """What is asked; None: begin anew. It outlasts a connection that this side has cut for a bad answer or for none:
-        the server has gone on meanwhile, and what it said before still counts."""
+        """What is asked; None: begin anew. It outlasts a connection that this side has cut for a bad answer, or for
+        none: the server has gone on meanwhile, and what it said before still counts."""
         self._every_s = every_s
         self._silence_s = silence_s
         self._first_retry_s = self._retry_s = retry_s

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from hw.ports import Axis, Direction
 from rotator import __version__
-from rotator.control.admission import only_faulted
 from rotator.exchange.orders import Jog, Order, Park, Speed, Stop
 from rotator.protocols import rotctld_caps, rotctld_earth
 from rotator.protocols.aiming import aim
@@ -194,12 +193,10 @@ class RotctldSession:
         return self._order(Speed(level))
 
     def _order(self, *orders: Order) -> Answer:
-        status = self._box.status()
-        refusals = [refusal for order in orders if (refusal := self._box.order(order))]
-        if refusals:
-            return Answer(REJECTED if refusals[0].forbidden else INVALID_PARAMETER)
-        # After `RPRT 0` a program would believe that the antenna follows.
-        return Answer(REJECTED) if all(only_faulted(order, status) for order in orders) else Answer()
+        for order in orders:
+            if refusal := self._box.order(order):
+                return Answer(REJECTED if refusal.forbidden or refusal.faulty else INVALID_PARAMETER)
+        return Answer()
 
     def _position(self) -> Answer:
         status = self._box.status()

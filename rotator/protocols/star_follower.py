@@ -69,9 +69,10 @@ class StarFollower:
             self._remark("no longer follows its star: it has set")
             return
         self._late = 0
-        if self._box.order(Aim(*direction)) is None:
+        refused = self._box.order(Aim(*direction))
+        if refused is None:
             self._ordered = direction
-        else:
+        elif not refused.faulty:  # a fault may pass
             self._star = None
 
     def _is_in_force(self) -> bool:

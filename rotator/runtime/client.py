@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount
-from rotator.exchange.orders import Leave, Order, Stop
+from rotator.exchange.orders import Leave, Order, Stop, Unheeded
 from rotator.exchange.sources import Refusal, Source
 from rotator.exchange.status import Status
 from rotator.runtime.log_limit import LogLimit
@@ -73,6 +73,8 @@ class Client:
         refused = self._forbidden(order) or refusal(order, self._loop.status, self._mount)
         if refused:
             self._complain(f"refused: {refused.reason}", self._ranges if refused.out_of_range else self._complaints)
+            if refused.faulty:
+                self._loop.post(self._source, Unheeded(order), can_wait=True)
         else:
             self._has_ordered = True
             self._loop.post(self._source, order, can_wait=self._is_too_much(order))

@@ -13,6 +13,7 @@ from contextlib import suppress
 from typing import Protocol
 
 from hw.ports import HardwareError
+from hw.urgent import hurry
 from rotator.rotors.port import Rotor
 from rotator.runtime.loop import COAST_S, ControlLoop
 
@@ -87,6 +88,7 @@ class ControlThread:
 
     def _run(self) -> None:
         failure: Exception | None = None
+        hurry()
         try:
             self._loop.run()
         except Exception as fault:

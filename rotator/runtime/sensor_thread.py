@@ -8,7 +8,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from hw.ports import AngleSensor, Axis, HardwareError
+from hw.ports import AngleSensor, Axis, HardwareError, KnowsSince
+from hw.urgent import hurry
 from rotator.control.axis.readings import Reading
 from rotator.rotors.port import Rotor
 from rotator.runtime.bell import Bell
@@ -82,6 +83,7 @@ class SensorThread:
             self._thread.join(timeout=JOIN_S)
 
     def _keep_reading(self) -> None:
+        hurry()
         try:
             due_s = self._clock()
             while not self._stopping:
@@ -97,13 +99,15 @@ class SensorThread:
 
     def _read(self, axis: Axis, sensor: AngleSensor) -> Reading:
         begun_s = self._clock()
+        since_s = sensor.since_s if isinstance(sensor, KnowsSince) else begun_s
         raw, trouble = None, ""
         try:
             raw = sensor.read()
         except HardwareError as fault:
             trouble = str(fault)
         now_s = self._clock()
-        if not trouble and now_s - begun_s > LONGEST_READ_S:
+        late = not trouble and now_s - begun_s > LONGEST_READ_S
+        if late:
             raw, trouble = None, SLOW
         self._journal.note(NAMES[axis], trouble)
-        return Reading(now_s, raw, trouble, self._rotor.condition(axis))
+        return Reading(now_s, raw, trouble, self._rotor.condition(axis), since_s, late)

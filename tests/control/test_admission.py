@@ -90,9 +90,47 @@ def test_an_uncalibrated_box_is_not_aimed_and_says_what_is_missing(order: Order)
     assert "calibration, limits" in reason
 
 
-def test_one_uncalibrated_axis_keeps_the_other_from_nothing() -> None:
-    assert not refused(Aim(235, 25), azimuth=(Missing.CALIBRATION,))
-    assert not refused(Aim(235, 25), elevation=(Missing.CALIBRATION,))
+def test_an_order_that_needs_an_uncalibrated_axis_is_refused() -> None:
+    """A program that knows no elevation sends 0: it needs none."""
+    assert refused(Aim(235, 25), azimuth=(Missing.CALIBRATION,)) == "UNCALIBRATED: azimuth needs calibration"
+    assert refused(Aim(235, 25), elevation=(Missing.CALIBRATION,)) == "UNCALIBRATED: elevation needs calibration"
+    assert not refused(Aim(235, 0), elevation=(Missing.CALIBRATION,))
+    assert refused(Aim(235, 0), elevation=(Missing.HOMING,)).startswith("UNCALIBRATED: elevation needs homing")
+
+
+FAULT = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "three times")
+
+
+@pytest.mark.parametrize("axis", list(Axis))
+@pytest.mark.parametrize(
+    ("order", "needs"),
+    [
+        (Aim(235, 25), (Axis.AZIMUTH, Axis.ELEVATION)),
+        (Aim(235, None), (Axis.AZIMUTH,)),
+        (Aim(None, 25), (Axis.ELEVATION,)),
+        (Aim(235, 0, engaged=False), ()),
+        (Park(), (Axis.AZIMUTH, Axis.ELEVATION)),
+        (Park(storm=True), ()),
+        (LoadTimed(1, ((10, 20),)), (Axis.AZIMUTH, Axis.ELEVATION)),
+        (LoadTimed(1, ((10, None),)), (Axis.AZIMUTH,)),
+        (RunTimed(), (Axis.AZIMUTH,)),
+        (Jog(Axis.AZIMUTH, Direction.PLUS), (Axis.AZIMUTH,)),
+        (Jog(Axis.AZIMUTH, Direction.OFF, held=True), ()),
+        (Stop(), ()),
+        (Release(), ()),
+    ],
+    ids=str,
+)
+def test_while_a_fault_stops_an_axis_an_order_that_needs_it_is_refused(
+    order: Order, needs: tuple[Axis, ...], axis: Axis
+) -> None:
+    name = axis.value
+    now, stopped = status(), replace(status().axis(axis), fault=replace(FAULT, axis=axis))
+    now = replace(now, azimuth=stopped) if axis is Axis.AZIMUTH else replace(now, elevation=stopped)
+    answer = refusal(order, now, MOUNT)
+    assert (answer is not None) == (axis in needs)
+    if answer is not None:
+        assert (answer.reason, answer.faulty) == (f"{name} is stopped by a fault: pot jumps", True)
 
 
 def test_an_azimuth_alone_needs_the_azimuth() -> None:

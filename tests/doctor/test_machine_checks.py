@@ -206,6 +206,18 @@ def test_the_service(pi: Pi, state: tuple[str, str, str], mark: str, advice: str
     assert advice in finding.advice
 
 
+@pytest.mark.parametrize(("policies", "mark"), [("002", "✓"), ("000", "!")])
+def test_whether_its_motor_threads_go_before_other_programs(pi: Pi, policies: str, mark: str) -> None:
+    pi.write("/etc/systemd/system/rotator.service", "[Service]\nUser=rotator\n")
+    pi.program(
+        "systemctl", "echo UnitFileState=enabled; echo ActiveState=active; echo SubState=running; echo MainPID=7"
+    )
+    for number, policy in enumerate(policies):
+        pi.write(f"/proc/7/task/{number}/stat", f"{number} (rotator run) S {'0 ' * 37}{policy} 0 0")
+    finding = pi.only("service")
+    assert (finding.mark, "no priority" in finding.found) == (mark, mark == "!")
+
+
 def test_no_service(pi: Pi) -> None:
     assert (pi.only("service").mark, pi.only("service").found[:13]) == ("–", "not installed")
 

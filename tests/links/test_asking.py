@@ -171,7 +171,9 @@ def test_a_server_of_no_use_moves_nothing_and_is_told_once(  # noqa: PLR0917
     asyncio.run(talk())
 
 
-@pytest.mark.parametrize("bad", [b"HTTP/1.1 400 Bad Request\r\n", b"\x00" * 200, b"RPRT -6\n", b"999.00\n20.00\n", b"10.00\n", None])
+@pytest.mark.parametrize(
+    "bad", [b"HTTP/1.1 400 Bad Request\r\n", b"\x00" * 200, b"RPRT -6\n", b"999.00\n20.00\n", b"10.00\n", None]
+)
 def test_after_a_bad_answer_a_good_one_is_compared_with_the_last_good_one(
     link: AskingLink, port: int, running: Running, bench: Any, bad: bytes | None
 ) -> None:

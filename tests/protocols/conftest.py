@@ -21,7 +21,7 @@ from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.exchange.faults import Missing
 from rotator.exchange.motor import Motor
-from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Park, RunTimed
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Park, Release, RunTimed
 from rotator.exchange.sources import Refusal, Source
 from rotator.exchange.status import Status
 from rotator.protocols.session import Session
@@ -122,6 +122,11 @@ class BenchBox:
         """The wiper of this axis's pot comes off, and the box has noticed."""
         self._raw[axis] = 0.0
         self.wait(0.5)
+
+    def goes_on(self) -> None:
+        """A person acknowledges its faults, in the next cycle: a motor ran while its pot was put elsewhere, for one."""
+        self._waiting.append((Source("console", 1), Release()))
+        self._cycle()
 
     def wait(self, seconds: float) -> None:
         """Let time pass, a cycle of the controller at a time; the antenna stays where it is put."""

@@ -82,6 +82,7 @@ def replay(text: str, box: BenchBox) -> None:
                 links[name] = Link.model_validate(keys)
             case At(azimuth_deg, elevation_deg):
                 box.stands_at(azimuth_deg, elevation_deg)
+                box.goes_on()
             case Piece(moment_s, source, way, data):
                 link = links[source.link]
                 if str(source) not in connections:

@@ -263,9 +263,11 @@ def test_an_order_that_no_axis_can_carry_out_is_rejected(new_box: type[BenchBox]
     assert session.receive(b"S\n") == [OK], "a stop is always carried out"
 
 
-def test_one_axis_that_can_move_is_enough_for_an_order(new_box: type[BenchBox]) -> None:
+def test_an_order_that_one_of_its_axes_cannot_carry_out_is_rejected_whole(new_box: type[BenchBox]) -> None:
     box = new_box(at=(235, 25))
     box.breaks(Axis.ELEVATION)
     assert [fault.axis for fault in box.status().faults] == [Axis.ELEVATION]
     session = RotctldSession(box)
-    assert session.receive(b"P 100 20\nM UP -1\nM UP_LEFT -1\n") == [OK, b"RPRT -9\n", OK]
+    assert session.receive(b"P 100 20\nM UP -1\nM UP_LEFT -1\n") == [b"RPRT -9\n"] * 3
+    assert box.orders == []
+    assert session.receive(b"M CW -1\n") == [OK], "the other axis alone obeys"

@@ -12,7 +12,7 @@ from rotator.control.axis.met_stops import MetStops
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.short_runs import STANDING_FAULTS, ShortRuns
 from rotator.control.sky.mount import Range
-from rotator.exchange.faults import POT, Fault, FaultKind, Notice
+from rotator.exchange.faults import LATE, POT, Fault, FaultKind, Notice
 from rotator.exchange.motor import NO_TRIES, Tries
 
 
@@ -68,10 +68,14 @@ class Attempts:
         self._angle_deg = angle_deg
         return self._short_runs.see(at_s, angle_deg, noise_deg)
 
-    def note(self, found: Fault | None, now_s: float, *, cause: Fault | None) -> bool:
-        """Note what is wrong now; `cause`: the part that is still present. Returns whether a new fault is kept."""
+    def note(self, found: Fault | None, now_s: float, *, cause: Fault | None, in_order: bool = False) -> bool:
+        """Note what is wrong now; `cause`: the part that is still present. Returns whether a new fault is kept.
+
+        `in_order`: as for FaultLatch.
+        """
         self._now_s = now_s
-        return self._struck(self._faults.note(found, now_s, cause=cause, tries=self._tries(found)))
+        tries = self._tries(found)
+        return self._struck(self._faults.note(found, now_s, cause=cause, tries=tries, in_order=in_order))
 
     def fail(self, fault: Fault) -> bool:
         """The axis is stopped by this fault. Returns whether it is kept."""
@@ -97,7 +101,8 @@ class Attempts:
         return max(1, self._short_runs.tries) if found.kind in {*STANDING_FAULTS, FaultKind.WRONG_WAY} else 0
 
     def _struck(self, new: bool) -> bool:
-        if new and self.fault is not None:
+        # A lateness says nothing of the motor: its runs until then still count.
+        if new and self.fault is not None and self.fault.kind not in LATE:
             self._short_runs.struck(self.fault.kind)
             if self.fault.kind in STANDING_FAULTS and self._relays.last and self._angle_deg is not None:
                 self._stops.stood_still(self.fault.kind, self._relays.last, self._angle_deg)

@@ -9,11 +9,17 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import replace
 
-from rotator.exchange.faults import POT, Fault
+from rotator.control.axis.readings import LOOK_S
+from rotator.exchange.faults import LATE, POT, Fault
 
 TRIES = 3
 TRIES_WITHIN_S = 600.0
 """After this many faults within this time a link cannot acknowledge the fault: a person does, or the time passes."""
+
+IN_ORDER_S, MOST_LATE = 1.0, 10
+"""A lateness has passed when everything was seen in order for this time: as long as bad readings take to heal. After
+others within TRIES_WITHIN_S it takes as many times longer, up to the second: a motor is not started again and again."""
+PASSED = "that has passed, and since then everything was seen in order: orders count again"
 
 OFTEN = f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: within that time only `resume` acknowledges it"
 
@@ -35,15 +41,26 @@ class FaultLatch:
         """The fault whose cause is still present. It stays after an acknowledgement."""
         self._tries_s: deque[float] = deque(maxlen=TRIES)
         """When faults last stopped the motor."""
+        self._late_s: deque[float] = deque(maxlen=MOST_LATE)
+        """When the latest of LATE came."""
+        self._in_order_s = self._noted_s = 0.0
+        """For how long all has been in order, as far as the box looked; and when it looked last."""
 
-    def note(self, found: Fault | None, now_s: float, *, cause: Fault | None, tries: int) -> bool:
+    def note(
+        self, found: Fault | None, now_s: float, *, cause: Fault | None, tries: int, in_order: bool = False
+    ) -> bool:
         """Note what is wrong at this moment. Returns whether a new fault is kept.
 
         `cause`: the fault whose cause is still present, so that it returns after an acknowledgement. `tries`: how often
-        the motor was on in vain before.
+        the motor was on in vain before. `in_order`: the latest reading is good, and no suspicion is open.
         """
         self._begin(now_s)
         self._cause = cause
+        looked_s, self._noted_s = min(now_s - self._noted_s, LOOK_S), now_s
+        self._in_order_s = self._in_order_s + looked_s if in_order and not (found or cause) else 0.0
+        if self.fault and self.fault.kind in LATE and self._has_passed(now_s):
+            self.fault = replace(self.fault, passing=True, measured=f"{self.fault.measured}; {PASSED}")
+            return False
         if self.fault and self.fault.passing:
             self.fault = self._named(found)
         return self.fail(found, now_s, tries=tries)
@@ -53,7 +70,10 @@ class FaultLatch:
         kept."""
         if fault is None or (self.fault is not None and (self.fault.cut or not fault.cut)):
             return False
-        if not fault.passing:
+        if fault.kind in LATE:
+            self._late_s.append(now_s)
+            self._in_order_s = 0.0
+        elif not fault.passing:
             self._tries_s.extend([now_s] * tries)
             self.kind = fault.kind if tries else self.kind
         if self.needs_person(now_s):
@@ -78,6 +98,14 @@ class FaultLatch:
             return False
         self.fault = self._named(self._cause)
         return True
+
+    def _has_passed(self, now_s: float) -> bool:
+        """Whether the lateness that is kept has passed by itself."""
+        assert self.fault is not None
+        if self.fault.passing or self.fault.cut or self.needs_person(now_s):
+            return False
+        lately = sum(now_s - late_s < TRIES_WITHIN_S for late_s in self._late_s)
+        return self._in_order_s >= IN_ORDER_S * max(1, lately)
 
     def _begin(self, now_s: float) -> None:
         self._tries_s.extend([now_s] * self._before)

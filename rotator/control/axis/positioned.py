@@ -28,7 +28,7 @@ from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.exchange.faults import Fault, FaultKind, Notice
+from rotator.exchange.faults import LATE, Fault, FaultKind, Notice
 from rotator.exchange.motor import Tries
 from rotator.exchange.status import AxisStatus
 
@@ -102,8 +102,11 @@ class PositionedAxis(AxisBase[PositionedSettings]):
             found = unstoppable(found, master=True)
         # A move that was too short to show anything counts with the one that shows it.
         tries = int(self.driven) + (self._stray.tries if strays else 0)
-        if self._faults.note(found, now_s, cause=cause, tries=tries):
-            self._stray.struck()
+        if self._faults.note(found, now_s, cause=cause, tries=tries, in_order=self._sensing.believable):
+            assert self.fault is not None
+            # A lateness says nothing of the motor: its moves until then still count.
+            if self.fault.kind not in LATE:
+                self._stray.struck()
 
     def _turning(self, now_s: float) -> Fault | None:
         """The fault of an axis that turns while it must hold. A model shows none; wind turns an axis that is let go."""

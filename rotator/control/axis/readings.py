@@ -11,6 +11,10 @@ from dataclasses import dataclass
 from hw.ports import Direction
 from rotator.exchange.faults import Fault, Notice
 
+LOOK_S = 0.1
+"""From one look at an axis to the next the box takes 0.01 s to 0.075 s. In a longer pause it stood still itself, and
+only this much of it counts as time in which it looked."""
+
 
 @dataclass(frozen=True, slots=True)
 class Condition:
@@ -54,6 +58,11 @@ class Reading:
     raw: float | None
     problem: str = ""
     condition: Condition = NORMAL
+    since_s: float = math.inf
+    """If earlier than `at_s`: the value is of an unknown moment between the two, for a computer may stand still in the
+    middle of a reading."""
+    late: bool = False
+    """There is no value because the reading took too long: the bus hung, or the computer stood still."""
 
 
 @dataclass(frozen=True, slots=True)

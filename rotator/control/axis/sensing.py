@@ -12,7 +12,7 @@ from collections import deque
 from hw.ports import Axis
 from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY_BAD, BadReadings
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.readings import Reading, Window
+from rotator.control.axis.readings import LOOK_S, Reading, Window
 from rotator.control.axis.sparks import SeenAt, Sparks
 from rotator.exchange.faults import Fault, FaultKind, Notice
 
@@ -68,6 +68,11 @@ class Sensing:
         self.believed_s = -math.inf
         """When the latest good reading was taken."""
         self._bad_since_s: float | None = None
+        """Since when the readings are bad, in `_looked_s`."""
+        self._looked_s, self._now_s = 0.0, -math.inf
+        """For how long the box has looked at this axis, in which time evidence counts; and when it looked last."""
+        self._slept_until_s = -math.inf
+        """When the box went on after it had stood still."""
         self._last: SeenAt | None = None
         self._jumped: Fault | None = None
         self._jumps: deque[SeenAt] = deque(maxlen=JUMPS)
@@ -97,6 +102,10 @@ class Sensing:
 
         `noise_deg`: the scatter of the readings, rms.
         """
+        if now_s - self._now_s > LOOK_S:
+            self._slept_until_s = now_s
+        self._looked_s += min(now_s - self._now_s, LOOK_S)
+        self._now_s = now_s
         new = reading.at_s > self._seen_s
         missed, self._missed = reading.condition.missed > self._missed, reading.condition.missed
         self._seen_s = max(self._seen_s, reading.at_s)
@@ -108,10 +117,12 @@ class Sensing:
         if problem is None:
             self.believed_s, self._bad_since_s, self._loose = reading.at_s, None, None
         elif self._bad_since_s is None:
-            self._bad_since_s = now_s
-        lasts = self._bad_since_s is not None and now_s - self._bad_since_s >= BAD_FOR_S
+            self._bad_since_s = self._looked_s
+        lasts = self._bad_since_s is not None and self._looked_s - self._bad_since_s >= BAD_FOR_S
         # Bad readings that last, and faults that the rotor reports, are faults by themselves: they do not count here.
-        if new and not lasts and reading.condition.fault is None:
+        # What the box itself slept through is no fault of the sensor.
+        slept = (missed or reading.late) and reading.since_s <= self._slept_until_s
+        if new and not lasts and not slept and reading.condition.fault is None:
             bad = problem is not None or missed
             self._in_a_row = self._in_a_row + 1 if bad else 0
             if self._in_a_row <= COUNTED_IN_A_ROW:
@@ -120,6 +131,8 @@ class Sensing:
 
     def _problem(self, reading: Reading, now_s: float) -> Fault | None:
         low, high = self._window.low_raw, self._window.high_raw
+        if reading.late:
+            return Fault(FaultKind.SENSOR_LATE, self._axis, reading.problem, f"{STALE_S:g} s")
         if reading.raw is None:
             return Fault(
                 FaultKind.SENSOR_SILENT, self._axis, reading.problem or "no answer", f"an answer in {STALE_S:g} s"
@@ -136,7 +149,7 @@ class Sensing:
         """A plausible reading: is it the place of the axis? If so, it counts from now on."""
         if angle_deg is None:
             return self._off_line
-        places = self._sparks.believe(reading.at_s, angle_deg, noise_deg)
+        places = self._sparks.believe(reading.at_s, angle_deg, noise_deg, reading.since_s)
         if not places:
             measured = f"from {self._degrees(self.raw or 0.0):.0f}° to {angle_deg:.0f}° in a moment"
             self._off_line = Fault(FaultKind.POT_JUMPS, self._axis, measured, JUMP_LIMIT)

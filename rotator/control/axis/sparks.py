@@ -6,6 +6,7 @@ no raw value and no fault.
 
 from __future__ import annotations
 
+import math
 from collections import deque
 
 SeenAt = tuple[float, float]
@@ -31,27 +32,32 @@ class Sparks:
     def __init__(self, fastest_dps: float) -> None:
         self._fastest_dps = fastest_dps
         self._believed: SeenAt | None = None
-        self._off: deque[SeenAt] = deque(maxlen=AGREEING_SPARKS)
+        """The angle, and the earliest moment at which the axis may have been there."""
+        self._off: deque[tuple[SeenAt, SeenAt]] = deque(maxlen=AGREEING_SPARKS)
+        """Readings that were not believed, each also with its earliest moment."""
 
     def begin_anew(self) -> None:
         """The readings mean other places than before."""
         self._believed = None
         self._off.clear()
 
-    def believe(self, at_s: float, angle_deg: float, noise_deg: float) -> tuple[SeenAt, ...]:
-        """Returns the readings that are believed now: none, the new one, or some that agree on another place."""
-        place = at_s, angle_deg
+    def believe(self, at_s: float, angle_deg: float, noise_deg: float, since_s: float = math.inf) -> tuple[SeenAt, ...]:
+        """Returns the readings that are believed now: none, the new one, or some that agree on another place.
+
+        `since_s`: if earlier than `at_s`, the reading is of an unknown moment between the two.
+        """
+        place, earliest = (at_s, angle_deg), (min(at_s, since_s), angle_deg)
         if self._believed is None or self._near(self._believed, place, noise_deg):
-            self._believed = place
+            self._believed = earliest
             self._off.clear()
             return (place,)
-        while self._off and not self._near(self._off[-1], place, noise_deg):
+        while self._off and not self._near(self._off[-1][1], place, noise_deg):
             self._off.popleft()
-        self._off.append(place)
+        self._off.append((place, earliest))
         if len(self._off) < AGREEING_SPARKS:
             return ()
-        places = tuple(self._off)
-        self._believed = place
+        places = tuple(each for each, _ in self._off)
+        self._believed = earliest
         self._off.clear()
         return places
 

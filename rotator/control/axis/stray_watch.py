@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Iterable
 
 from hw.ports import Axis
+from rotator.control.axis.readings import LOOK_S
 from rotator.control.axis.vain_moves import LeftBehind, VainMoves
 from rotator.control.commands import Steer
 from rotator.exchange.faults import Fault, FaultKind
@@ -106,7 +107,7 @@ class StrayWatch:
             self._sent_s = self._place_deg = None
             return None
         begins = self._sent_s is None
-        past_s = 0.0 if self._sent_s is None else now_s - self._sent_s
+        past_s = 0.0 if self._sent_s is None else min(now_s - self._sent_s, LOOK_S)
         self._sent_for_s += past_s
         self._sent_s = now_s
         elsewhere = not begins and abs(steered.angle_deg - self._sent_deg) > STRAY_DEG

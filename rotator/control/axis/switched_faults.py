@@ -15,7 +15,7 @@ from rotator.control.axis.vain_presses import VainPresses
 from rotator.control.axis.weld_watch import TURNS
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.motor import Tries
+from rotator.exchange.motor import ALL_OPEN, Tries
 
 WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
 """Faults that say more than the notice TURNS."""
@@ -84,7 +84,8 @@ class SwitchedFaults:
             reported = None
         lost = None if homing else self._newly_lost(reading.condition.lost)
         self._lost = reading.condition.lost
-        return self._attempts.note(reported or present or lost, now_s, cause=cause)
+        in_order = sensing.believable and not homing and self._gate.trusts == ALL_OPEN
+        return self._attempts.note(reported or present or lost, now_s, cause=cause, in_order=in_order)
 
     def _newly_lost(self, why: str) -> Fault | None:
         """The fault of a count that has just been lost. A count that is lost from the start is no fault."""

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import pytest
+
 from hw.ports import Axis
 from rotator.control.axis.fault_latch import TRIES, FaultLatch
-from rotator.exchange.faults import Fault, FaultKind
+from rotator.exchange.faults import LATE, Fault, FaultKind
 
 STANDS = Fault(FaultKind.STANDS_STILL, Axis.AZIMUTH, "0.0° in 1 s")
 JUMPS = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "3 jumps")
@@ -184,3 +188,75 @@ def test_the_next_run_knows_the_kind_of_the_latest_fault_that_stopped_the_motor(
         assert latch.kind is kind
         latch.note(None, 10.0, cause=None, tries=0)
         latch.acknowledge(10.0, by_person=True)
+
+
+# --- a lateness passes by itself
+
+LATENESS = [
+    Fault(FaultKind.CONTROL_LATE, Axis.AZIMUTH, "nothing for 0.7 s", "0.55 s"),
+    Fault(FaultKind.SENSOR_LATE, Axis.AZIMUTH, "0.4 s old", "0.2 s"),
+]
+
+
+def looks(
+    latch: FaultLatch, from_s: float, seconds: float, *, found: Fault | None = None, in_order: bool = True
+) -> None:
+    for count in range(round(20 * seconds)):
+        latch.note(found, from_s + 0.05 * count, cause=found, tries=0, in_order=in_order)
+
+
+@pytest.mark.parametrize("late", LATENESS, ids=str)
+def test_a_lateness_ends_when_all_was_seen_in_order_for_a_second(late: Fault) -> None:
+    latch = FaultLatch()
+    latch.fail(late, 10.0, tries=1)
+    looks(latch, 10.0, 0.9)
+    assert latch.fault == late
+    looks(latch, 10.9, 0.3)
+    assert latch.fault is None
+
+
+@pytest.mark.parametrize("late", LATENESS, ids=str)
+def test_it_stays_while_anything_is_wrong_or_suspected(late: Fault) -> None:
+    latch = FaultLatch()
+    latch.fail(late, 10.0, tries=1)
+    looks(latch, 10.0, 60.0, in_order=False)
+    looks(latch, 70.0, 60.0, found=JUMPS)
+    assert latch.fault == late
+
+
+def test_pauses_in_which_nothing_was_seen_do_not_end_it() -> None:
+    latch = FaultLatch()
+    latch.fail(LATENESS[0], 10.0, tries=1)
+    for now_s in (11.0, 20.0, 40.0, 80.0):
+        latch.note(None, now_s, cause=None, tries=0, in_order=True)
+    assert latch.fault is LATENESS[0]
+
+
+def test_each_further_lateness_takes_a_second_more_and_never_needs_a_person() -> None:
+    latch = FaultLatch()
+    now_s = 10.0
+    for wait_s in (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 10, 10):
+        latch.fail(LATENESS[0], now_s, tries=1)
+        looks(latch, now_s, wait_s - 0.2)
+        assert latch.fault is not None
+        looks(latch, now_s + wait_s - 0.2, 0.5)
+        assert latch.fault is None
+        now_s += wait_s + 1.0
+    assert not latch.needs_person(now_s)
+
+
+def test_one_that_hides_whether_the_motor_stopped_stays() -> None:
+    latch = FaultLatch()
+    unseen = replace(LATENESS[1], cut=True)
+    latch.fail(unseen, 10.0, tries=1)
+    looks(latch, 10.0, 60.0)
+    assert latch.fault == unseen
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FaultKind if kind not in LATE], ids=str)
+def test_no_other_fault_ends_by_itself(kind: FaultKind) -> None:
+    latch = FaultLatch()
+    fault = Fault(kind, Axis.AZIMUTH, "")
+    latch.fail(fault, 10.0, tries=1)
+    looks(latch, 10.0, 60.0)
+    assert latch.fault == fault
