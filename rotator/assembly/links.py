@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from hw.ports import Axis
 from rotator.assembly.sessions import BINARY, HTTP, session_maker
 from rotator.config.links import FOLLOW, Link, address
 from rotator.control.sky.mount import Mount
@@ -32,9 +33,10 @@ from rotator.monitor.transcript import Way
 from rotator.orbits.celestial import Sky
 from rotator.protocols.move_report import MoveReport
 from rotator.protocols.n1mm import N1mmReport
+from rotator.protocols.one_axis import OneAxis
 from rotator.protocols.pstrotator import ANSWERS_ABOVE
 from rotator.protocols.rotctld_follow import RotctldFollower
-from rotator.protocols.session import Inquiry, Session
+from rotator.protocols.session import Box, Inquiry, Session
 from rotator.runtime.client import Client, Rights
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
@@ -103,7 +105,7 @@ class _Connections:
     def session(self) -> Session:
         source, client = self._client()
         session = session_maker(
-            self._link, client, self._remark, sky=self._shared.sky, notice=self._notice, refused=client.note_refused
+            self._link, _seen_by(self._link, client), self._remark, sky=self._shared.sky, notice=self._notice
         )
         if self._link.report_moves:
             session = MoveReport(session, client)
@@ -166,11 +168,15 @@ def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
     )
 
 
+def _seen_by(link: Link, box: Box) -> Box:
+    return OneAxis(box, Axis(link.axis)) if link.axis else box
+
+
 def _report(link: Link, source: Source, shared: _Shared) -> Report | None:
     """What a link sends unasked; None: nothing."""
     if link.status_to is None or link.rotor_name is None:
         return None
-    reporter = N1mmReport(Client(shared.loop, shared.mount, source), link.rotor_name)
+    reporter = N1mmReport(_seen_by(link, Client(shared.loop, shared.mount, source)), link.rotor_name)
 
     def due(now_s: float) -> bytes | None:
         datagram = reporter.due(now_s)

@@ -38,13 +38,11 @@ def session_maker(
     *,
     sky: Sky | None = None,
     notice: Callable[[str], None] = lambda _text: None,
-    refused: Callable[[str], None] = lambda _reason: None,
 ) -> Session:
     """A new conversation in the link's protocol.
 
     `remark` takes a text for the log, to be logged once: a request that the box does not support. `notice` takes one
-    about an event, `refused` the reason why the protocol itself refuses an order: it is out of range. `sky`: None where
-    the configuration does not say where the station is.
+    about an event. `sky`: None where the configuration does not say where the station is.
     """
     match link.protocol:
         case "gs232a" | "gs232b":
@@ -55,10 +53,9 @@ def session_maker(
                 empty_line=INVALID if link.rejects_empty_lines else b"",
                 strict=link.strict,
                 may_calibrate=link.may_calibrate,
-                refused=refused,
             )
         case "gs232-f1efw":
-            return F1efwSession(box, refused)
+            return F1efwSession(box)
         case "rotctld":
             return RotctldSession(box)
         case "rotctld-follow":
@@ -73,7 +70,7 @@ def session_maker(
         case "md01":
             return SpidSession(box, Model.MD01, link.pulses_per_degree)
         case "dcu1":
-            return Dcu1Session(box, refused)
+            return Dcu1Session(box)
         case "pstrotator":
             return PstRotatorSession(box, remark, sky.site if sky else None)
         case "pstrotatoraz":
@@ -90,7 +87,7 @@ def session_maker(
         case "rc2800":
             return Rc2800Session(box)
         case "n1mm":
-            return N1mmSession(box, link.rotor_name, remark, refused)
+            return N1mmSession(box, link.rotor_name, remark)
         case "macdoppler":
             return MacDopplerSession(box)
         case "wsjtx":

@@ -37,6 +37,7 @@ NEEDS_STATION: tuple[ProtocolName, ...] = ("lx200", "stellarium")
 """These protocols name places among the stars."""
 _TCP_ONLY: tuple[ProtocolName, ...] = ("stellarium", "pstrotatoraz")
 _MANY_PROTOCOLS_PLACES = ("pty", "serial", "tcp")
+_ONE_AXIS: tuple[ProtocolName, ...] = ("dcu1", "n1mm", "pstrotatoraz", "rot1prog")
 _ONLY_ORDERS: tuple[ProtocolName, ...] = (FOLLOW, "macdoppler", "wsjtx")
 
 
@@ -74,6 +75,9 @@ class Link(Table):
     strict: bool = False
     """GS-232: answer as Yaesu's manual: as ack and empty_line; B: O and F wait for a Y, Z changes the centre that H3
     shows."""
+    axis: Literal["azimuth", "elevation"] | None = None
+    """dcu1, n1mm, pstrotatoraz, rot1prog: the axis that the bearing turns, where each axis has a port of its own, as
+    with two RT-21; a stop is for it alone. Left out, azimuth, and a stop is for all."""
     may_calibrate: bool = False
     """GS-232: O, F, O2 and F2 take the reading as an end of the range."""
     report_moves: bool = False
@@ -136,6 +140,12 @@ class Link(Table):
     def _moves_are_reported_on_gs232(self) -> Link:
         if self.report_moves and self.protocol not in ("gs232a", "gs232b"):
             raise ValueError(f"report_moves is for gs232a and gs232b, not for {self.protocol}")
+        return self
+
+    @model_validator(mode="after")
+    def _one_bearing_is_one_axis(self) -> Link:
+        if self.axis and self.protocol not in _ONE_AXIS:
+            raise ValueError(f"axis is for {', '.join(_ONE_AXIS)}; {self.protocol} names its axes itself")
         return self
 
     @model_validator(mode="after")

@@ -17,7 +17,10 @@ from rotator.exchange.sources import Refusal
 from rotator.exchange.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
-"""The angles that a program may send, as in Hamlib. The mount knows which of them the rotor can reach."""
+"""The angles that a program may send to any rotor, as in Hamlib; and those that the axis of its rotor has. The mount
+knows which of them the rotor can reach."""
+WIDEST_DEG = {Axis.AZIMUTH: (-360.0, 720.0), Axis.ELEVATION: (-90.0, 210.0)}
+"""The widest ranges that a file may give the axes."""
 
 
 def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
@@ -106,7 +109,8 @@ def _unreachable(points: tuple[tuple[float | None, float | None], ...], mount: M
     try:
         for azimuth_deg, elevation_deg in points:
             for axis, angle_deg in ((Axis.AZIMUTH, azimuth_deg), (Axis.ELEVATION, elevation_deg)):
-                low_deg, high_deg = SENT_DEG[axis]
+                own = mount.azimuth if axis is Axis.AZIMUTH else mount.elevation
+                low_deg, high_deg = min(SENT_DEG[axis][0], own.min_deg), max(SENT_DEG[axis][1], own.max_deg)
                 if angle_deg is not None and not low_deg <= angle_deg <= high_deg:
                     raise Unreachable(f"{axis.value} {angle_deg:g} is outside {low_deg:g} to {high_deg:g} degrees")
             if azimuth_deg is not None:

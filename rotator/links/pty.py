@@ -122,6 +122,7 @@ class PtyLink:
             if data:
                 conversation.received(data)
             if free:
+                conversation.finish()
                 over.set_result(b"")
 
         fds = [terminal.master, *([terminal.openings.fd] if terminal.openings else [])]

@@ -143,6 +143,10 @@ class _Client(asyncio.BufferedProtocol):
             return
         self._conversation.received(data)
 
+    def eof_received(self) -> None:
+        if self._conversation is not None and self._clients.heard(self):
+            self._conversation.finish()
+
     def connection_lost(self, exc: Exception | None) -> None:
         if self._conversation is not None:
             self._conversation.close()

@@ -19,6 +19,7 @@ from typing import Any
 from rotator.links.allowed import Allowed
 from rotator.links.listening import cannot_listen
 from rotator.links.wire import Conversation, LinkError, Wire, reason
+from rotator.protocols.lines import STOP
 from rotator.protocols.session import Session
 from rotator.runtime.log_limit import LogLimit
 
@@ -121,6 +122,8 @@ class UdpLink:
         if not self._allowed(host):
             self._complain(f"{host} is not in allow: not heard")
             return
+        if len(data) > MOST_BYTES and STOP in data.upper():
+            data = STOP
         if len(data) > MOST_BYTES:
             self._complain(f"{host}: a datagram of more than {MOST_BYTES} bytes is dropped")
             return

@@ -14,7 +14,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.protocols.session import Beating, Ending, Session
+from rotator.protocols.session import Beating, Ending, Finishing, Session
 
 log = logging.getLogger(__name__)
 
@@ -92,6 +92,11 @@ class Conversation:
         if self._session.idle_s is not None:
             self._cancel()
             self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
+
+    def finish(self) -> None:
+        """The program has ended the connection: what it has sent last is whole, also without a line end."""
+        if isinstance(self._session, Finishing):
+            self._reply(self._session.finish)
 
     def close(self) -> None:
         """End the conversation and its timers, and tell the session. May be called twice."""

@@ -47,7 +47,7 @@ class Desk:
             # A stop counts with any content.
             return self._operating.do(method.command({} if method.free else _values(payload)))
         except WrongValuesError as reason:
-            return str(reason)
+            return self._operating.refuse(str(reason))
 
     def _refused_by_right(self, method: Method) -> str:
         allowed = self._may == "move" or (method.free and self._may == "stop")

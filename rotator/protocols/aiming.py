@@ -1,22 +1,34 @@
-"""From two angles in degrees to an order, for every protocol that sends degrees.
+"""From text to angles in degrees, and from angles to an order, for every protocol that sends degrees.
 
-Knows how programs write an angle. Does not know which angles the box obeys: `rotator.control.admission` does.
+Knows how programs write a number: the one reader of decimals for all protocols. Does not know which angles the box
+obeys: `rotator.control.admission` does.
 """
 
 from __future__ import annotations
 
+import math
 import re
 
 from hw.ports import Axis
-from rotator.control.admission import SENT_DEG
+from rotator.control.admission import SENT_DEG, WIDEST_DEG
 from rotator.exchange.orders import Aim
+from rotator.exchange.sources import Refusal
 
-_DEGREES = re.compile(r"[+-]?[0-9]{1,3}(?:[.,][0-9]{0,9})?")
+NUMBER = r"[+-]?(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+-]?[0-9]+)?"
+"""Programs write `1e-05` (Java, C#), 17 digits, `.5` (Visual Basic) and `12,4` (a European desktop)."""
+SURE_NUMBER = r"(?:[0-9]+(?:[eE][+-][0-9]+)?|[+-]?(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+"""Where a controller knows whole digits alone: without what one damaged digit can make of them, `-35` or `2e5`."""
+_NUMBER = re.compile(rf"[ \t]*({NUMBER}),?[ \t]*")
 
 
 def degrees(text: str) -> float | None:
-    """An angle as programs write it, with a decimal point or comma. None: the text is not one number."""
-    return float(text.replace(",", ".")) if _DEGREES.fullmatch(text) else None
+    """Any finite decimal number, with a point or a comma, and perhaps a comma behind it. None: it is not one number.
+
+    Unlike C's `scanf` it takes no `nan`, no hexadecimal number, and none with other text behind it: `1x0` is not 1.
+    """
+    found = _NUMBER.fullmatch(text)
+    number = float(found[1].replace(",", ".")) if found else math.inf
+    return number if math.isfinite(number) else None
 
 
 def aim(azimuth_deg: float | None, elevation_deg: float | None) -> Aim:
@@ -30,7 +42,12 @@ def aim(azimuth_deg: float | None, elevation_deg: float | None) -> Aim:
     return Aim(azimuth_deg, elevation_deg)
 
 
+def outside(azimuth_deg: float, top_deg: float) -> Refusal:
+    """An azimuth that the protocol does not have."""
+    return Refusal(f"azimuth {azimuth_deg:g} is outside 0 to {top_deg:g} degrees", out_of_range=True)
+
+
 def may_be_sent(azimuth_deg: float, elevation_deg: float) -> bool:
-    """Whether these angles are within the range that the box takes."""
+    """Whether some rotor has these angles."""
     angles_deg = {Axis.AZIMUTH: azimuth_deg, Axis.ELEVATION: elevation_deg}
-    return all(SENT_DEG[axis][0] <= angle_deg <= SENT_DEG[axis][1] for axis, angle_deg in angles_deg.items())
+    return all(WIDEST_DEG[axis][0] <= angle_deg <= WIDEST_DEG[axis][1] for axis, angle_deg in angles_deg.items())

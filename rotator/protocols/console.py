@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Axis, Direction
-from rotator.control.admission import SENT_DEG
+from rotator.control.admission import WIDEST_DEG
 from rotator.exchange.orders import (
     Confirm,
     GiveBack,
@@ -130,6 +130,8 @@ _BY_TEXT = {verb.text: verb for verb in VERBS}
 COMMANDS = ("where", "monitor", "doctor", "calibrate", "config", "rehearse", "sky", "run")
 """Commands of the program that a person takes for words of the console."""
 TURN_WORDS = {turn: word for word, turn in TURNS.items()}
+_STOPS, _SLIP = ("s", "st", "sto"), 0.7
+"""`stop` cut off; and how much alike a word with one letter wrong, too many, or in the wrong place is: `stpo` 0.75."""
 _WHOLE = re.compile(r"[0-9]{1,6}")
 _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
@@ -190,11 +192,15 @@ def parse(line: bytes) -> ConsoleCommand:
         case [verb, *_] if verb in _BY_TEXT:
             raise ValueError(f"write it like this: {_BY_TEXT[verb].usage}")
         case _:
-            raise ValueError(_unknown(words[0] if words else ""))
+            word = words[0] if words else ""
+            slip = word in _STOPS or difflib.get_close_matches(word, ["stop"], cutoff=_SLIP)
+            if word not in COMMANDS and (slip or b"stop" in line.lower()):
+                return Stop(latch=True)
+            raise ValueError(_unknown(word))
 
 
 def _degrees(axis: Axis, text: str) -> float:
-    low_deg, high_deg = SENT_DEG[axis]
+    low_deg, high_deg = WIDEST_DEG[axis]
     angle_deg = degrees(text)
     if angle_deg is None or not low_deg <= angle_deg <= high_deg:
         raise ValueError(f"{_quoted(text)} is no {axis.value}: degrees from {low_deg:g} to {high_deg:g}")

@@ -61,13 +61,16 @@ class ConsoleSession:
     def idle(self) -> list[bytes]:
         return []
 
+    def finish(self) -> list[bytes]:
+        return [self._answer(line) for line in self._lines.finish() if line is None or line.strip(b" \t")]
+
     def _answer(self, line: bytes | None) -> bytes:
         if line is None:
-            return _error(f"no line has more than {MAX_LINE} characters")
+            return _error(self._operating.refuse(f"no line has more than {MAX_LINE} characters"))
         try:
             command = parse(line)
         except ValueError as mistake:
-            return _error(str(mistake))
+            return _error(self._operating.refuse(str(mistake)))
         match command:
             case Ask.STATUS:
                 return _reply(*report(self._box.status()), OK)

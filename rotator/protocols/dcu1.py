@@ -8,15 +8,15 @@ docs/reference/wire.md).
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from rotator.exchange.orders import Stop
-from rotator.protocols.aiming import aim
+from rotator.protocols.aiming import aim, outside
+from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
-MAX_COMMAND = 16
+MAX_COMMAND = 32
 SAME_COMMAND_S = 0.1
 """RT-21's `AP1235.0` ends in CR and `;`, sent together. A `;` that comes later than this is a stop."""
 AZIMUTH_TOP_DEG = 360
@@ -40,7 +40,7 @@ VERBS = (
     Verb("", "Stop"),
 )
 _BY_TEXT = {verb.text: verb for verb in VERBS}
-_TARGET = re.compile(r"AP1(\d{3}(?:\.\d)?)")
+_TARGET = re.compile(r"AP1(\d{3}(?:\.\d*)?)")
 _NOISE = bytes((*range(0x21), *range(0x7F, 0x100)))
 
 
@@ -51,12 +51,14 @@ class Command:
 
 
 def parse(text: bytes) -> Command | None:
-    """One command, without its end; None: the text is no command. Capitals only, as in the reference."""
+    """One command, without its end; None: the text is no command. Capitals only, but for a stop."""
     if target := _TARGET.fullmatch(text.decode("latin-1")):
         azimuth_deg = float(target[1])
         return Command("AP1", azimuth_deg) if azimuth_deg <= AZIMUTH_TOP_DEG else None
     verb = _BY_TEXT.get(text.decode("latin-1"))
-    return Command(verb.text) if verb and verb.text != "AP1" else None
+    if verb and verb.text != "AP1":
+        return Command(verb.text)
+    return Command("AS1") if is_stop(text) or text.upper().startswith(b"AS") else None
 
 
 def encode(command: Command) -> bytes:
@@ -86,10 +88,8 @@ class Dcu1Session:
     idle_s = SAME_COMMAND_S
     closed = False
 
-    def __init__(self, box: Box, refused: Callable[[str], None] = lambda _reason: None) -> None:
-        """`refused` hears of a target out of range, for the log."""
+    def __init__(self, box: Box) -> None:
         self._box = box
-        self._refused = refused
         self._begun = bytearray()
         self._target_deg: float | None = None
         self._half_ended = False
@@ -103,6 +103,9 @@ class Dcu1Session:
         self._half_ended = False
         return []
 
+    def finish(self) -> list[bytes]:
+        return self.receive(CR) if self._begun else []
+
     def _take(self, octet: bytes) -> bytes:
         half_ended, self._half_ended = self._half_ended, False
         if octet == SEMICOLON and half_ended:
@@ -114,11 +117,13 @@ class Dcu1Session:
             return b""
         text = bytes(self._begun)
         self._begun.clear()
-        command = parse(text) if len(text) <= MAX_COMMAND else None
-        if command is None and (target := _TARGET.fullmatch(text.decode("latin-1"))):
-            # An earlier target must not be taken for this one.
-            self._target_deg = None
-            self._refused(f"azimuth {target[1]} is outside 0 to {AZIMUTH_TOP_DEG} degrees")
+        command = parse(text) if len(text) <= MAX_COMMAND or is_stop(text) else None
+        if command is None:
+            if text.startswith(b"AP"):
+                # An earlier target must not be taken for this one.
+                self._target_deg = None
+            target = _TARGET.fullmatch(text.decode("latin-1"))
+            self._box.note_refused(outside(float(target[1]), AZIMUTH_TOP_DEG) if target else text)
         if octet == CR and command == Command(""):
             return b""
         self._half_ended = octet == CR and b"." in text

@@ -11,6 +11,9 @@ import re
 from dataclasses import dataclass
 from enum import IntEnum
 
+from rotator.protocols.aiming import NUMBER, degrees
+from rotator.protocols.damaged import is_stop
+
 MAX_LINE = 256
 
 
@@ -20,6 +23,14 @@ class Level(IntEnum):
     I = 1  # noqa: E741 - the standard's own numeral
     II = 2
     III = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """One command of a line. An AZ or EL without a value is a question."""
+
+    verb: str
+    value: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,13 +44,11 @@ class Verb:
     """The pattern of the number that must follow; empty: no number may follow."""
 
 
-_DEGREES = r"[+-]?(?:\d{1,3}(?:[.,]\d{0,6})?|[.,]\d{1,6})"
-"""Visual Basic writes `.5`; some desktops write `0,5`. Without a number the word is a question."""
 _SPEED = r"\d{1,5}"
 
 VERBS = (
-    Verb("AZ", "Azimuth: go there; without number: read", Level.I, f"(?:{_DEGREES})?"),
-    Verb("EL", "Elevation: go there; without number: read", Level.I, f"(?:{_DEGREES})?"),
+    Verb("AZ", "Azimuth: go there; without number: read", Level.I, f"(?:{NUMBER})?"),
+    Verb("EL", "Elevation: go there; without number: read", Level.I, f"(?:{NUMBER})?"),
     Verb("SA", "Stop azimuth", Level.I),
     Verb("SE", "Stop elevation", Level.I),
     Verb("ML", "Turn counter-clockwise until stopped"),
@@ -61,21 +70,15 @@ _STOPS = ("SA", "SE")
 _ANGLES = ("AZ", "EL")
 _RADIO = "UP|DN|UM|DM|UR|DR|UC|DC|AO|LO|OP|IP|AN|ST"
 """The standard's words for the radios and the station, which a rotor passes over."""
-_ANGLE = re.compile(f"(AZ|EL)(?P<number>{_DEGREES})?")
+_BOTH_STOP = (Word("SA"), Word("SE"))
+_ANGLE = re.compile(f"(AZ|EL)(?: *(?P<number>{NUMBER}))?")
+"""With blanks between, as the builder of the servos writes it, too."""
 _NUMBERED = re.compile("(AZ|EL)[-+0-9.,]")
 _AFTER = re.compile(f"$|(?P<blank> )(?! *[0-9.,])|(?P<more>[ \\x00-\\x1f\\x7f-\\xff]|AZ|EL|SA|SE|{_RADIO})")
 """What may follow a whole number. `more`: only one with decimals is whole there, as in `AZ1 20.5` a digit is lost."""
 _NAMED = re.compile("[A-Z][!-~]*")
 _PLAIN = re.compile(r"[A-Z]{2,}|(?:UP|DN)\d+|(?:UM|DM)[A-Z-]+|(?:UR|DR|UC|DC|OP|IP|AN)\d{1,3}|ST[\d:]+")
-_UNENDED = re.compile(r" *(?:AZ|EL)-?\d{1,3}\.\d{1,2}(?: *(?:AZ|EL)-?\d{1,3}\.\d{1,2})? *")
-
-
-@dataclass(frozen=True, slots=True)
-class Word:
-    """One command of a line. An AZ or EL without a value is a question."""
-
-    verb: str
-    value: float | None = None
+_UNENDED = re.compile(r" *(?:AZ|EL) ?-?\d{1,3}\.\d{1,2}(?: *(?:AZ|EL) ?-?\d{1,3}\.\d{1,2})? *")
 
 
 def parse(line: bytes, level: Level) -> tuple[Word, ...]:
@@ -83,9 +86,9 @@ def parse(line: bytes, level: Level) -> tuple[Word, ...]:
 
     A pair of `AZ` and `EL` with their numbers counts anywhere in the line, in either order, with any text before,
     between and behind them. When one of the two is damaged (`AZ1x0`, `AZ1 20.5`, `EL` alone beside an azimuth), only
-    the stops of the line count. A single angle counts only between blanks and in a line without anything strange: the
-    strange part may be what is left of the other angle. So does any other command. Words that begin with other letters
-    are not for a rotor: frequencies, modes, the satellite HAZEL5.
+    the stops of the line count, and one of them stops both axes. A single angle counts only between blanks and in a
+    line without anything strange: the strange part may be what is left of the other angle. So does any other command.
+    Words that begin with other letters are not for a rotor: frequencies, modes, the satellite HAZEL5.
     """
     text = line.upper().decode("latin-1").replace("\t", " ").replace(";", " ")
     text = text.lstrip("".join(map(chr, (*range(0x21), *range(0x7F, 0x100)))))
@@ -100,15 +103,19 @@ def parse(line: bytes, level: Level) -> tuple[Word, ...]:
     strange = [part for at, part in others if at not in words and not _NAMED.fullmatch(part)]
     stops = {at: word for at, word in words.items() if word.verb in _STOPS}
     values = {word.verb for word in angles.values() if word.value is not None}
+    unclear = any(
+        at in between_blanks and at not in stops and _is_damaged_stop(part, beside=bool(stops)) for at, part in others
+    )
+    halted = _BOTH_STOP if stops or unclear else ()
     if damaged:
-        return _in_order(stops)
+        return halted
     if len(values) == len(_ANGLES):
         return _in_order(angles | (stops if strange else words))
     foreign = [part for at, part in others if at not in words and not _PLAIN.fullmatch(part)]
     asked = {word.verb for word in angles.values() if word.value is None}
     joined = [part for part in between_blanks.values() if _NUMBERED.search(part) and not _ANGLE.fullmatch(part)]
-    if strange or joined or (values and (foreign or asked)):
-        return _in_order(stops)
+    if strange or joined or (values and (foreign or asked)) or (unclear and not values):
+        return halted
     return _in_order(angles | words)
 
 
@@ -121,12 +128,19 @@ def _angles(text: str) -> tuple[dict[int, Word], str, bool]:
         after = _AFTER.match(text, end)
         if re.fullmatch("[A-Z]", text[:begin][-1:]):
             continue  # DELTA, HAZEL5
-        whole = after is not None and (after["more"] is None or bool(number and re.search("[.,][0-9]", number)))
+        whole = after is not None and (after["more"] is None or bool(number and re.search("[.,][0-9]|E", number)))
         joined_question = number is None and text[:begin][-1:].strip() != ""
-        damaged = damaged or not whole or joined_question
-        angles[begin] = Word(match[1], float(number.replace(",", ".")) if number else None)
+        angle_deg = degrees(number) if number else None
+        damaged = damaged or not whole or joined_question or (number is not None and angle_deg is None)
+        angles[begin] = Word(match[1], angle_deg)
         rest = rest[:begin] + " " * (end - begin) + rest[end:]
     return angles, rest, damaged
+
+
+def _is_damaged_stop(part: str, *, beside: bool) -> bool:
+    """`beside`: there is a stop of one axis in the line; then a word with one letter right is that of the other."""
+    half = beside and bool(re.fullmatch("S[A-Z]|[A-Z][AE]", part)) and not _word(part, Level.III)
+    return half or re.match("S[AE](?![A-Z])", part) is not None or is_stop(part.encode("latin-1"))
 
 
 def _in_order(words: dict[int, Word]) -> tuple[Word, ...]:
@@ -136,8 +150,13 @@ def _in_order(words: dict[int, Word]) -> tuple[Word, ...]:
 def _word(text: str, level: Level) -> Word | None:
     for verb, pattern in _PATTERNS:
         if verb.level <= level and (match := pattern.fullmatch(text)):
-            return Word(verb.text, float(match[1].replace(",", ".")) if match[1] else None)
+            return Word(verb.text, degrees(match[1]) if match[1] else None)
     return None
+
+
+def is_order(line: bytes) -> bool:
+    """Whether a line without a command was meant as one: it holds a number and a word that is for a rotor."""
+    return bool(re.search(rb"[0-9]", line) and re.search(rb"(?<![A-Z])(?:AZ|EL|M[LRUD]|V[LRUD])", line.upper()))
 
 
 def is_whole(begun: bytes) -> bool:
@@ -156,14 +175,14 @@ def encode(*words: Word) -> bytes:
 def _written(word: Word) -> str:
     match word:
         case Word("AZ" | "EL" as verb, float() as angle_deg):
-            return verb + degrees(angle_deg)
+            return verb + tenths(angle_deg)
         case Word(verb, float() as speed_mdps):
             return f"{verb}{speed_mdps:04.0f}"
         case _:
             return word.verb
 
 
-def degrees(angle_deg: float) -> str:
+def tenths(angle_deg: float) -> str:
     """One decimal, which PstRotator needs; never `-0.0`."""
     return f"{round(angle_deg, 1) + 0.0:.1f}"
 
@@ -171,11 +190,11 @@ def degrees(angle_deg: float) -> str:
 def position_reply(azimuth_deg: float | None, elevation_deg: float | None) -> bytes:
     """Both in one line (Hamlib up to 4.5), or only the axis in question (since 4.6). LF: Gpredict does not read CR."""
     named = [("AZ", azimuth_deg), ("EL", elevation_deg)]
-    return (" ".join(name + degrees(angle) for name, angle in named if angle is not None) + "\n").encode()
+    return (" ".join(name + tenths(angle) for name, angle in named if angle is not None) + "\n").encode()
 
 
 def pstrotator_reply(azimuth_deg: float, elevation_deg: float) -> bytes:
-    return f"+{degrees(azimuth_deg)} {degrees(elevation_deg)}\n".encode()
+    return f"+{tenths(azimuth_deg)} {tenths(elevation_deg)}\n".encode()
 
 
 def reply(verb: str, value: int | str) -> bytes:

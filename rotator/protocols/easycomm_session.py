@@ -15,7 +15,7 @@ from rotator.exchange.orders import Jog, Order, Park, Stop
 from rotator.protocols import easycomm
 from rotator.protocols.aiming import aim
 from rotator.protocols.easycomm import Level, Word
-from rotator.protocols.lines import LineReader
+from rotator.protocols.lines import OVERLONG, LineReader
 from rotator.protocols.session import Box
 
 NO_LINE_END_S = 0.2
@@ -53,10 +53,14 @@ class EasycommSession:
     def idle(self) -> list[bytes]:
         return self._answers(self._lines.flush()) if easycomm.is_whole(self._lines.pending) else []
 
+    def finish(self) -> list[bytes]:
+        return [reply for line in self._lines.finish() for reply in self._answers(line)]
+
     def _answers(self, line: bytes | None) -> list[bytes]:
-        if line is None:
-            return []
-        replies = [self._obey(kind, list(words)) for kind, words in groupby(easycomm.parse(line, self._level), _kind)]
+        words = easycomm.parse(line, self._level) if line else ()
+        if line is None or (not words and easycomm.is_order(line)):
+            self._box.note_refused(OVERLONG if line is None else line)
+        replies = [self._obey(kind, list(group)) for kind, group in groupby(words, _kind)]
         return [reply for reply in replies if reply]
 
     def _obey(self, kind: str, words: list[Word]) -> bytes:

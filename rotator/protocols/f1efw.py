@@ -7,28 +7,26 @@ is noise to it. Knows the bytes of an order, and which orders this sketch would 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
 from rotator.exchange.orders import Aim
+from rotator.protocols.aiming import outside
 from rotator.protocols.session import Box
 
 ARDUINO_READ_TIMEOUT_S = 1.0
 """An Arduino takes a string as complete after a second of silence, so Termite need not send a line end."""
 
 _AZIMUTH_TOP_DEG = 450
-_ELEVATION_DEG = range(-90, 181)
-_ORDER = re.compile(rb"[Ww](\d{1,3})[ ,;\t]{1,8}(-?)(\d{1,3})(?=[^\d])")
-_LONGEST_ORDER = 1 + 3 + 8 + 1 + 3
+_ORDER = re.compile(rb"[Ww][ \t]{0,8}(?:(\d{3})(\d{3})|(\d{1,3})[ ,;\t]{1,8}(-?\d{1,3}))(?=[^\d])")
+_LONGEST_ORDER = 1 + 8 + 3 + 8 + 1 + 3
+_NO_ORDER = re.compile(rb"[Ww][ \t]{0,8}[-+.\d].*?[\r\n]")
 
 
 class F1efwSession:
     idle_s = ARDUINO_READ_TIMEOUT_S
     closed = False
 
-    def __init__(self, box: Box, refused: Callable[[str], None] = lambda _reason: None) -> None:
-        """`refused` hears of an order out of range, for the log."""
+    def __init__(self, box: Box) -> None:
         self._box = box
-        self._refused = refused
         self._tail = b""
 
     def receive(self, data: bytes) -> list[bytes]:
@@ -36,17 +34,21 @@ class F1efwSession:
         end = 0
         for order in _ORDER.finditer(text):
             end = order.end()
-            self._obey(float(order[1]), float(order[2] + order[3]))
+            self._obey(float(order[1] or order[3]), float(order[2] or order[4]))
+        if damaged := _NO_ORDER.search(text, end):
+            self._box.note_refused(damaged[0].strip())
+            end = damaged.end()
         self._tail = text[end:][-_LONGEST_ORDER:]
         return []
 
     def idle(self) -> list[bytes]:
         return self.receive(b"\n")
 
+    finish = idle
+
     def _obey(self, azimuth_deg: float, elevation_deg: float) -> None:
-        if azimuth_deg > _AZIMUTH_TOP_DEG:
-            self._refused(f"azimuth {azimuth_deg:g} is outside 0 to {_AZIMUTH_TOP_DEG} degrees")
-        elif elevation_deg not in _ELEVATION_DEG:
-            self._refused(f"elevation {elevation_deg:g} is outside -90 to 180 degrees")
+        top_deg = max(_AZIMUTH_TOP_DEG, self._box.status().azimuth.max_deg)
+        if azimuth_deg > top_deg:
+            self._box.note_refused(outside(azimuth_deg, top_deg))
         else:
             self._box.order(Aim(azimuth_deg, elevation_deg, engaged=elevation_deg > 0))

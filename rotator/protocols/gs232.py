@@ -11,6 +11,8 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
+from rotator.protocols.aiming import SURE_NUMBER, degrees
+from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
 
 LEAST_AZIMUTHS = 2
@@ -21,7 +23,6 @@ MAX_LINE = 16_384
 """Bytes: `Msss` and 3800 azimuths of three digits and a blank."""
 AZIMUTH_TOP_360_DEG = 360
 AZIMUTH_TOP_450_DEG = 450
-ELEVATION_TOP_DEG = 180
 
 INVALID = b"?>\r\n"
 SURE = b"are you sure?\r\n"
@@ -100,20 +101,20 @@ class NoOrder(NotACommand):
     """An M or W without numbers, or with numbers that are no order. It clears the timed list like any other M or W."""
 
 
-class OutOfRange(NoOrder):
-    """An M or W with an angle that the command set does not have; the text is the reason, for the log."""
-
-
 _NOISE = "".join(map(chr, (*range(0x21), *range(0x7F, 0x100))))
 _PASSED_OVER = " ;\0"
 """What may follow a command: GS232-Remote ends each one with `;`, and plugging in a cable can add a NUL."""
+_AXIS_STOP = re.compile("[AE][^A-Z0-9]*")
 _PADDED = re.compile(r"[MW] *\d{3}(?: *\d{3})*")
-_NUMBER = r"\d{1,3}(?:[.,]\d{1,6})?"
-_GLUED = re.compile(r"(\d{3})(\d{3})")
-_BLANK_BETWEEN = re.compile(rf"({_NUMBER}) +({_NUMBER})")
-# A comma separates the angles only where no blank does; else it is a decimal comma.
-_COMMA_BETWEEN = re.compile(r"(\d{1,3}(?:\.\d{1,6})?) *, *(\d{1,3}(?:\.\d{1,6})?)")
-_ONE = re.compile(rf"({_NUMBER})")
+_WITH_COMMA = rf"(?:{SURE_NUMBER}|[+-]?\d+,\d*(?:[eE][+-]?\d+)?)"
+_ONE = re.compile(_WITH_COMMA)
+_PAIRS = (
+    re.compile(r"(\d{3})(\d{3})"),
+    re.compile(rf"({_WITH_COMMA}),? +({_WITH_COMMA})"),
+    # A comma separates the angles only where no blank does; else it is a decimal comma.
+    re.compile(rf"({SURE_NUMBER}) *, *({SURE_NUMBER})"),
+)
+_WITHIN = re.compile(rb"[Ww] *(\d{3}) ?(\d{3})[ ;\0]*\Z")
 _LIST = re.compile(r"\d{1,3}(?: +\d{1,3})+")
 
 
@@ -121,64 +122,58 @@ def parse(line: bytes, dialect: Dialect) -> Command | None:
     """From one line, without its end, to a command; None for an empty line. Raises NotACommand.
 
     Noise before a command (a plug, a break) is skipped, and `;` or NUL after it. Other noise makes it invalid, so that
-    a damaged digit can never make a different order. Only a stop may be damaged: any line that begins with S and holds
-    no digit is one, because the person who sent it saw something go wrong.
+    a damaged digit can never make a different order. Only a stop may be damaged: the person who sent it saw something
+    go wrong.
     """
     text = line.decode("latin-1").replace("\t", " ").lstrip(_NOISE).rstrip(" ")
     body = text.rstrip(_PASSED_OVER).upper()
     if not body:
         return None
-    if body[0] == "S" and not any(digit in body for digit in "0123456789"):
+    if is_stop(line):
         return Command("S")
     if body[0] in "MW":
         # The last digit may be what has become a `;` or a NUL: then only the manual's three digits are sure.
         if len(body) < len(text) and not _PADDED.fullmatch(body):
             raise NoOrder(body)
         return (_parse_m if body[0] == "M" else _parse_w)(body[1:].strip(" "))
-    verb = _BY_TEXT.get(body)
+    verb = _BY_TEXT.get(body) or (_BY_TEXT[body[0]] if _AXIS_STOP.fullmatch(body) else None)
     if verb is None or (verb.only_b and dialect is Dialect.A):
         raise NotACommand(body)
     return Command(body)
 
 
+def order_within(line: bytes) -> Command | None:
+    """A W with its angles in three digits each at the end of a line, with anything before it; None: there is none."""
+    found = _WITHIN.search(line)
+    return Command("W", azimuth_deg=float(found[1]), elevation_deg=float(found[2])) if found else None
+
+
 def _parse_m(rest: str) -> Command:
-    if one := _ONE.fullmatch(rest):
-        return Command("M", azimuth_deg=_azimuth(one[1]))
+    if _ONE.fullmatch(rest) and (azimuth_deg := degrees(rest)) is not None:
+        return Command("M", azimuth_deg=azimuth_deg)
     if not _LIST.fullmatch(rest):
         raise NoOrder(rest)
     interval, *azimuths = rest.split()
     if not LEAST_AZIMUTHS <= len(azimuths) <= MAX_AZIMUTHS:
         raise NoOrder(rest)
-    return Command("M", interval_s=_interval(interval), points=tuple((_azimuth(a), None) for a in azimuths))
+    return Command("M", interval_s=_interval(interval), points=tuple((float(a), None) for a in azimuths))
 
 
 def _parse_w(rest: str) -> Command:
-    pair = _GLUED.fullmatch(rest) or _BLANK_BETWEEN.fullmatch(rest) or _COMMA_BETWEEN.fullmatch(rest)
-    if pair:
-        return Command("W", azimuth_deg=_azimuth(pair[1]), elevation_deg=_elevation(pair[2]))
+    for pattern in _PAIRS:
+        if pair := pattern.fullmatch(rest):
+            azimuth_deg, elevation_deg = degrees(pair[1]), degrees(pair[2])
+            if azimuth_deg is None or elevation_deg is None:
+                raise NoOrder(rest)
+            return Command("W", azimuth_deg=azimuth_deg, elevation_deg=elevation_deg)
     if not _LIST.fullmatch(rest):
         raise NoOrder(rest)
     interval, *angles = rest.split()
     if len(angles) % 2 or len(angles) > 2 * MAX_PAIRS:
         raise NoOrder(rest)
     pairs = zip(angles[::2], angles[1::2], strict=True)
-    points = tuple((_azimuth(azimuth), _elevation(elevation)) for azimuth, elevation in pairs)
+    points = tuple((float(azimuth), float(elevation)) for azimuth, elevation in pairs)
     return Command("W", interval_s=_interval(interval), points=points)
-
-
-def _azimuth(digits: str) -> float:
-    return _angle(digits, AZIMUTH_TOP_450_DEG)
-
-
-def _elevation(digits: str) -> float:
-    return _angle(digits, ELEVATION_TOP_DEG)
-
-
-def _angle(digits: str, top_deg: int) -> float:
-    angle_deg = float(digits.replace(",", "."))
-    if angle_deg > top_deg:
-        raise OutOfRange(f"angle {angle_deg:g} is outside 0 to {top_deg} degrees")
-    return angle_deg
 
 
 def _interval(digits: str) -> int:

@@ -5,14 +5,13 @@ Knows the meaning of the commands. Does not know the bytes (`gs232` does), nor h
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import Aim, Calibrate, ClearTimed, Jog, LoadTimed, Order, RunTimed, Speed, Stop
+from rotator.exchange.orders import Calibrate, ClearTimed, Jog, LoadTimed, Order, RunTimed, Speed, Stop
 from rotator.exchange.status import AxisStatus
 from rotator.protocols import gs232
-from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand, OutOfRange
-from rotator.protocols.lines import LineReader
+from rotator.protocols.aiming import aim, outside
+from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand
+from rotator.protocols.lines import OVERLONG, LineReader
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
@@ -43,8 +42,8 @@ class Gs232Session:
 
     `ack` is the answer to a command that asks no question, b"" or b"\\r"; `empty_line` that to an empty line, b"" or
     `?>`. `strict` follows the GS-232B's manual where programs know a clone's way: O and F store only after Y, Z changes
-    the centre that H3 shows, and neither Z nor P36 nor P45 has a text as its answer. `refused` hears of an order that
-    is out of the unit's range, for the log.
+    the centre that H3 shows, neither Z nor P36 nor P45 has a text as its answer, and a W counts only at the begin of a
+    line.
     """
 
     idle_s = None
@@ -59,15 +58,14 @@ class Gs232Session:
         empty_line: bytes = b"",
         strict: bool = False,
         may_calibrate: bool = False,
-        refused: Callable[[str], None] = lambda _reason: None,
     ) -> None:
         self._box = box
         self._dialect = dialect
         self._ack = ack
         self._empty_line = empty_line
         self._strict = strict and dialect is Dialect.B
+        self._lenient = not strict
         self._may_calibrate = may_calibrate
-        self._refused = refused
         self._lines = LineReader(gs232.MAX_LINE)
         azimuth = box.status().azimuth
         self._top_deg = (
@@ -90,8 +88,12 @@ class Gs232Session:
     def idle(self) -> list[bytes]:
         return []
 
+    def finish(self) -> list[bytes]:
+        return [reply for line in self._lines.finish() if (reply := self._answer(line))]
+
     def _answer(self, line: bytes | None) -> bytes:
         if line is None:
+            self._box.note_refused(OVERLONG)
             return gs232.INVALID
         # A port that echoes (Linux does, until a program sets it) sends it back: an answer to it would come back too.
         self._echoed = line.strip() == gs232.INVALID.strip() or (self._echoed and not line.strip())
@@ -102,13 +104,13 @@ class Gs232Session:
             return self._store(asked) if line.strip() else self._ack
         try:
             command = gs232.parse(line, self._dialect)
-        except NoOrder as reason:
-            self._clear_list()
-            if isinstance(reason, OutOfRange):
-                self._refused(str(reason))
-            return gs232.INVALID
-        except NotACommand:
-            return gs232.INVALID
+        except NotACommand as reason:
+            command = gs232.order_within(line) if self._lenient else None
+            if command is None:
+                if isinstance(reason, NoOrder):
+                    self._clear_list()
+                self._box.note_refused(line)
+                return gs232.INVALID
         return self._empty_line if command is None else self._obey(command)
 
     def _obey(self, command: Command) -> bytes:
@@ -145,14 +147,18 @@ class Gs232Session:
         azimuths_deg = [azimuth for azimuth, _ in command.points]
         if command.azimuth_deg is not None:
             azimuths_deg.append(command.azimuth_deg)
-        if (farthest_deg := max(azimuths_deg)) > self._top_deg:
-            self._refused(f"azimuth {farthest_deg:g} is outside 0 to {self._top_deg} degrees")
+        if (farthest_deg := max(azimuths_deg)) > (top_deg := self._counts_to(self._box.status().azimuth)):
+            self._box.note_refused(outside(farthest_deg, top_deg))
             return gs232.INVALID
         if command.interval_s is not None:
             reply = self._order(LoadTimed(float(command.interval_s), command.points))
             self._points = 0 if reply == gs232.INVALID else len(command.points)
             return reply
-        return self._order(Aim(command.azimuth_deg, command.elevation_deg))
+        return self._order(aim(command.azimuth_deg, command.elevation_deg))
+
+    def _counts_to(self, azimuth: AxisStatus) -> float:
+        """The highest azimuth: a 450° unit has all of an overlap that is wider."""
+        return max(self._top_deg, azimuth.max_deg) if self._top_deg > gs232.AZIMUTH_TOP_360_DEG else self._top_deg
 
     def _clear_list(self) -> None:
         if self._list_length():
@@ -180,7 +186,7 @@ class Gs232Session:
         # Noise of the pot just beyond an end of the range counts as that end, not as one turn away.
         axis_deg = min(max(azimuth.angle_deg or 0.0, azimuth.min_deg), azimuth.max_deg)
         points_deg = axis_deg + azimuth.correction_deg
-        return points_deg if 0 <= whole(points_deg) <= self._top_deg else points_deg % 360
+        return points_deg if 0 <= whole(points_deg) <= self._counts_to(azimuth) else points_deg % 360
 
     def _mode(self, top_deg: int) -> bytes:
         self._top_deg = top_deg

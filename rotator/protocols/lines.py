@@ -1,4 +1,4 @@
-"""Cuts a stream of bytes into lines, in bounded memory.
+"""Cuts a stream of bytes into lines, in bounded memory. Of a line that is too long a stop remains.
 
 Knows the line ends CR, LF and CR LF; CR LF is one end, also where a pause separates the two. Does not know what the
 lines mean.
@@ -8,6 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from rotator.exchange.sources import Refusal
+from rotator.protocols.damaged import is_stop
+
+OVERLONG = Refusal("a line is too long")
+STOP = b"STOP"
+"""What every protocol of lines understands as a damaged stop."""
 CR = 0x0D
 LF = 0x0A
 
@@ -17,7 +23,8 @@ class LineReader:
     """Feed it pieces; it returns whole lines without their ends. An empty line is b""."""
 
     limit: int
-    """Longest line in bytes. A longer line is dropped to its end and returned as None."""
+    """Longest line in bytes. A longer line is dropped to its end and returned as None; as STOP where it begins as one.
+    """
     _buffer: bytearray = field(default_factory=bytearray)
     _overlong: bool = False
     _after_cr: bool = False
@@ -39,19 +46,23 @@ class LineReader:
 
     def flush(self) -> bytes | None:
         """End the line here, as if a line end had come."""
-        line = None if self._overlong else bytes(self._buffer)
+        line = bytes(self._buffer)
+        overlong, self._overlong = self._overlong, False
         self._buffer.clear()
-        self._overlong = False
+        if overlong:
+            return STOP if is_stop(line) else None
         return line
+
+    def finish(self) -> list[bytes | None]:
+        """The connection has ended: what has come of a line is a whole one."""
+        return [self.flush()] if self._buffer else []
 
     @property
     def pending(self) -> bytes:
         """The bytes of a line whose end has not come yet."""
-        return bytes(self._buffer)
+        return b"" if self._overlong else bytes(self._buffer)
 
     def _take(self, piece: bytes) -> None:
-        if self._overlong or len(self._buffer) + len(piece) > self.limit:
-            self._overlong = True
-            self._buffer.clear()
-        else:
-            self._buffer += piece
+        room = self.limit - len(self._buffer)
+        self._overlong = self._overlong or len(piece) > room
+        self._buffer += piece[:room]

@@ -8,7 +8,7 @@ Hamlib 4.5 (model 1801) and Stellarium send (see docs/reference/wire.md).
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 
 from rotator.protocols.rounding import whole
@@ -18,6 +18,7 @@ ACK = 0x06
 """The question for the kind of mount, a byte alone."""
 COLON, HASH = ord(":"), ord("#")
 STOP = "Q"
+_STOPS, _LINE_ENDS = b"Qq", b"\r\n"
 DEGREE = b"\xdf"
 """The degree sign in answers. Stellarium wants this byte; other programs read any."""
 
@@ -70,8 +71,8 @@ VERBS = (
 )
 _BY_LENGTH = sorted(VERBS, key=lambda verb: -len(verb.text))
 _SEPARATOR = "[*\u00df\u00b0:]"
-_SECONDS = r"(?::(\d{2})(?:\.\d{1,3})?|'(\d{2}))?"
-_HOURS = re.compile(r" ?(\d{1,2}):(\d{2})(?:\.(\d)|:(\d{2})(?:\.\d{1,3})?)?")
+_SECONDS = r"(?::(\d{2})(?:\.\d*)?|'(\d{2}))?"
+_HOURS = re.compile(r" ?(\d{1,2}):(\d{2})(?:\.(\d)\d*|:(\d{2})(?:\.\d*)?)?")
 _SIGNED = re.compile(rf" ?([+-]?)(\d{{1,2}}){_SEPARATOR}(\d{{2}}){_SECONDS}")
 _AROUND = re.compile(rf" ?(\d{{1,3}}){_SEPARATOR}(\d{{2}}){_SECONDS}")
 _SIXTY = 60
@@ -95,7 +96,7 @@ class CommandReader:
     """Finds commands in a stream of bytes, in bounded memory. Bytes before a `:` are skipped."""
 
     _begun: bytearray | None = None
-    _overlong: bool = field(default=False)
+    _before: int = HASH
 
     def feed(self, data: bytes) -> list[Command | Kind]:
         found: list[Command | Kind] = []
@@ -105,7 +106,9 @@ class CommandReader:
                     found.append(Kind.MOUNT)
                 elif octet == COLON:
                     self._begun = bytearray()
-            elif octet == HASH:
+                elif octet == HASH and self._before in _STOPS:
+                    found.append(Command(STOP))
+            elif octet == HASH or (octet in _LINE_ENDS and self._begun[:1].upper() == STOP.encode()):
                 found.append(parse(bytes(self._begun)))
                 self._begun = None
             else:
@@ -113,6 +116,7 @@ class CommandReader:
                     # A `#` got lost. What the end says may still be a stop.
                     del self._begun[:1]
                 self._begun.append(octet)
+            self._before = octet
         return found
 
 
@@ -127,7 +131,7 @@ def parse(text: bytes) -> Command | Kind:
                 return Command(verb.text, words[len(verb.text) :])
         if words in ("Qs", "Qw"):
             return Command({"Qs": "Qn", "Qw": "Qe"}[words])
-    return Command(STOP) if words.startswith(STOP) or f":{STOP}" in words else Kind.UNKNOWN
+    return Command(STOP) if STOP in words.upper() else Kind.UNKNOWN
 
 
 def hours(text: str) -> float | None:

@@ -58,6 +58,9 @@ class Lx200Session:
     def idle(self) -> list[bytes]:
         return []
 
+    def finish(self) -> list[bytes]:
+        return self.receive(bytes([lx200.HASH]))
+
     def beat(self) -> list[bytes]:
         self._follower.beat()
         return []
@@ -69,11 +72,11 @@ class Lx200Session:
             case Kind():
                 return b""
             case Command("Sr", text):
-                return self._set("Sr", lx200.hours(text))
-            case Command("Sd" | "Sa" as which, text):
-                return self._set(which, lx200.signed(text))
+                return self._set(command, lx200.hours(text))
+            case Command("Sd" | "Sa", text):
+                return self._set(command, lx200.signed(text))
             case Command("Sz", text):
-                return self._set("Sz", lx200.around(text))
+                return self._set(command, lx200.around(text))
             case Command("MS"):
                 return self._go_to_star()
             case Command("MA"):
@@ -101,9 +104,11 @@ class Lx200Session:
                 return self._place(verb) or self._known(verb)
         return b""
 
-    def _set(self, which: str, angle_deg: float | None) -> bytes:
+    def _set(self, command: Command, angle_deg: float | None) -> bytes:
         """A damaged coordinate takes its partner with it: one of an earlier target must not complete a later one."""
+        which = command.verb
         if angle_deg is None:
+            self._box.note_refused(f":{which}{command.value}#".encode("latin-1"))
             self._set_deg.pop(which, None)
             self._set_deg.pop(_PARTNERS[which], None)
             return NOT_DONE

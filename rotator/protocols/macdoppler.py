@@ -13,7 +13,7 @@ from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.session import Box
 
 _REPORT = re.compile(
-    r"\[AzEl Rotor Report:Azimuth:([^,\[\]]*), *Elevation:([^,\[\]]*)(?:, *SatName:([^\r\n]*))?\][\s\0]*$"
+    r"\[AzEl Rotor Report:Azimuth:([-+.,eE\d ]*), *Elevation:([-+.,eE\d ]*)(?:, *SatName:([^\r\n]*))?\][\s\0]*$"
 )
 
 
@@ -56,6 +56,8 @@ class MacDopplerSession:
         report = parse(data)
         if report:
             self._box.order(aim(report.azimuth_deg, report.elevation_deg))
+        elif b"[AzEl Rotor" in data:
+            self._box.note_refused(data)
         return []
 
     def idle(self) -> list[bytes]:

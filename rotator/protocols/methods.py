@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hw.ports import Axis
-from rotator.control.admission import SENT_DEG
+from rotator.control.admission import WIDEST_DEG
 from rotator.exchange.orders import (
     Confirm,
     GiveBack,
@@ -122,10 +122,10 @@ class Method:
 
 _AXIS = Choice("axis", tuple(axis.value for axis in Axis), "the axis")
 _AZIMUTH = Number(
-    "azimuth_deg", *SENT_DEG[Axis.AZIMUTH], "clockwise from true north; above 360: a turn of the overlap", 200
+    "azimuth_deg", *WIDEST_DEG[Axis.AZIMUTH], "clockwise from true north; above 360: a turn of the overlap", 200
 )
-_ELEVATION = Number("elevation_deg", *SENT_DEG[Axis.ELEVATION], "above the horizon", 30)
-_ANGLE = Number("angle_deg", *SENT_DEG[Axis.AZIMUTH], "where the axis stands, in true degrees", 0)
+_ELEVATION = Number("elevation_deg", *WIDEST_DEG[Axis.ELEVATION], "above the horizon", 30)
+_ANGLE = Number("angle_deg", *WIDEST_DEG[Axis.AZIMUTH], "where the axis stands, in true degrees", 0)
 _TURN = Choice("turn", tuple(TURNS), "clockwise, counter-clockwise, up or down")
 
 METHODS = (

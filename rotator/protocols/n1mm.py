@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from xml.sax.saxutils import escape, unescape
 
 from rotator.exchange.orders import Aim, Stop
-from rotator.protocols.aiming import degrees
+from rotator.protocols.aiming import degrees, outside
+from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
@@ -25,6 +26,8 @@ TURN_TENTHS = 3600
 _MESSAGE = re.compile(r"\ufeff?\s*(?:<\?xml[^<>]*\?>)?\s*<N1MMRotor>(.*)</N1MMRotor>[\s\0]*", re.DOTALL)
 _FIELD = re.compile(r"\s*<([A-Za-z]+)>([^<>]*)</\1>\s*")
 _NO = ("0", "false")
+_NO_STOP = re.compile(rf"<stop>\s*(?:{'|'.join(_NO)})\s*</stop>", re.IGNORECASE)
+_ROTOR = re.compile(r"<rotor>([^<>]*)</rotor>", re.IGNORECASE)
 
 AZIMUTH_TOP_DEG = 360
 
@@ -46,8 +49,16 @@ class Halt:
 
 
 def parse(datagram: bytes) -> Go | Halt | None:
-    """One message; None: the datagram is none. A message with a stop in it is a stop."""
-    message = _MESSAGE.fullmatch(datagram.decode("utf-8", errors="replace"))
+    """One message; None: the datagram is none. A message with a stop in it is a stop, also a damaged one."""
+    text = datagram.decode("utf-8", errors="replace")
+    if command := _whole(text):
+        return command
+    rotor = _ROTOR.search(text)
+    return Halt(unescape(rotor[1]).strip() if rotor else "") if is_stop(_NO_STOP.sub("", text).encode()) else None
+
+
+def _whole(text: str) -> Go | Halt | None:
+    message = _MESSAGE.fullmatch(text)
     if not message:
         return None
     before, opened, rest = message[1].partition("<stop>")
@@ -99,13 +110,10 @@ class N1mmSession:
         box: Box,
         rotor_name: str | None = None,
         remark: Callable[[str], None] = lambda _text: None,
-        refused: Callable[[str], None] = lambda _reason: None,
     ) -> None:
-        """`refused` hears of an order out of range, for the log."""
         self._box = box
         self._rotor_name = rotor_name
         self._remark = remark
-        self._refused = refused
 
     def receive(self, data: bytes) -> list[bytes]:
         command = parse(data)
@@ -114,11 +122,13 @@ class N1mmSession:
                 self._box.order(Stop())
             case Go(rotor, azimuth_deg, offset) if self._is_ours(rotor):
                 if not 0 <= azimuth_deg <= AZIMUTH_TOP_DEG:
-                    self._refused(f"azimuth {azimuth_deg:g} is outside 0 to {AZIMUTH_TOP_DEG} degrees")
+                    self._box.note_refused(outside(azimuth_deg, AZIMUTH_TOP_DEG))
                     return []
                 if degrees(offset):
                     self._remark(f"N1MM's offset of {offset} degrees is not added: give the box its own")
                 self._box.order(Aim(azimuth_deg, None))
+            case None:
+                self._box.note_refused(data)
             case Go(rotor) | Halt(rotor):
                 self._remark(f'orders for rotor {rotor[:24]!a} are not for this box, which is "{self._rotor_name}"')
         return []

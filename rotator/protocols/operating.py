@@ -14,8 +14,21 @@ from rotator.config.station import NO_PLACE
 from rotator.control.rights import Deed, State, deed_of, hindrance, holds, mode_words
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.control.sky.timed_table import TimedTable
-from rotator.exchange.orders import Aim, GiveBack, Home, Jog, Mode, Order, RelaysChecked, Release, SetMode, Stop, Take
-from rotator.exchange.sources import Source
+from rotator.exchange.orders import (
+    Aim,
+    GiveBack,
+    Home,
+    Jog,
+    LetGo,
+    Mode,
+    Order,
+    RelaysChecked,
+    Release,
+    SetMode,
+    Stop,
+    Take,
+)
+from rotator.exchange.sources import Refusal, Source
 from rotator.exchange.status import Status
 from rotator.protocols.console import PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
 from rotator.protocols.session import Box, Tracking
@@ -43,17 +56,23 @@ class Operating:
         """What goes on, as `Tracker.state` says it."""
         return self._tracking.state if self._tracking else "off"
 
+    def refuse(self, reason: str) -> str:
+        """Log it, and return it. What the box refuses is in the log already."""
+        if reason:
+            self._box.note_refused(Refusal(reason))
+        return reason
+
     def do(self, command: PersonCommand) -> str:
         """Do it. Returns why not; empty: it is done, or has begun."""
         match command:
             case Track(words):
-                return self._track(words)
+                return self.refuse(self._track(words))
             case ClockIsRight():
                 if self._tracking is not None:
                     self._tracking.clock_is_right()
                 return ""
             case Pulse(axis, direction):
-                return self._unfit(axis) or self._obey(Jog(axis, direction, PULSE_S))
+                return self.refuse(self._unfit(axis)) or self._obey(Jog(axis, direction, PULSE_S))
             case _:
                 return self._obey(command)
 
@@ -70,8 +89,8 @@ class Operating:
 
     def _obey(self, order: Order) -> str:
         if isinstance(order, SetMode) and self._box.status().mode_switch:
-            return "the box has a mode switch of its own: turn it there"
-        if reason := self._blocked(order) or _beyond(order, self._box.status()):
+            return self.refuse("the box has a mode switch of its own: turn it there")
+        if reason := self.refuse(self._blocked(order) or _beyond(order, self._box.status())):
             return reason
         match order:
             case Aim() | Jog() | Home():
@@ -129,7 +148,7 @@ class Operating:
     def _blocked(self, order: Order) -> str:
         """Why this order would have no effect; empty: it has one."""
         match order:
-            case Stop() | Take() | Release() | RelaysChecked():
+            case Stop() | Take() | Release() | RelaysChecked() | LetGo():
                 pass
             case _ if reason := self._of_another():
                 return reason

@@ -14,6 +14,7 @@ from enum import Enum
 from hw.ports import Axis
 from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim
+from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
@@ -34,14 +35,16 @@ class Form:
 
     axes: dict[str, Axis]
     per_degree: int
-    stops: tuple[int, ...]
-    """Angles that mean a stop: with a ramp, and at once."""
 
 
 FORMS = {
-    Model.D: Form({"A": Axis.AZIMUTH, "E": Axis.ELEVATION}, 1, (977, 997, 999)),
-    Model.COMBI_TRACK: Form({"A": Axis.AZIMUTH, "B": Axis.ELEVATION}, 10, (9777, 9977, 9999)),
+    Model.D: Form({"A": Axis.AZIMUTH, "E": Axis.ELEVATION}, 1),
+    Model.COMBI_TRACK: Form({"A": Axis.AZIMUTH, "B": Axis.ELEVATION}, 10),
 }
+STOPS_DEG = 900
+"""977, 997 and 999 mean a stop: with a ramp, and at once. No rotor has an angle from here on, so what is damaged of
+them is a stop too."""
+_DAMAGED_STOP = re.compile(r"G9..")
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +107,9 @@ class ProsistelSession:
         self._box = box
         self._model = model
         self._form = FORMS[model]
-        self._begun: bytearray | None = None
+        self._begun = bytearray()
+        self._headed = False
+        """The bytes begun have their STX. Without it only a stop counts."""
         self._stopped: Axis | None = None
         """The axis that the command before this one stopped."""
 
@@ -115,18 +120,29 @@ class ProsistelSession:
     def idle(self) -> list[bytes]:
         return []
 
+    def finish(self) -> list[bytes]:
+        answer = self._take(CR)
+        return [answer] if answer else []
+
     def _take(self, octet: int) -> bytes:
-        if octet == STX:
-            self._begun = bytearray()
-        elif self._begun is not None and octet == CR:
-            command = parse(bytes(self._begun), self._model)
-            self._begun = None
+        if octet in (STX, CR):
+            text, headed = bytes(self._begun), self._headed
+            self._begun, self._headed = bytearray(), octet == STX
+            command = parse(text, self._model) if headed and octet == CR else None
+            if command is None and text:
+                self._damaged(text, headed=headed)
             return self._obey(command) if command else b""
-        elif self._begun is not None:
-            self._begun.append(octet)
-            if len(self._begun) > MAX_COMMAND:
-                self._begun = None
+        self._begun.append(octet)
+        if len(self._begun) > MAX_COMMAND:
+            del self._begun[0]
+            self._headed = False
         return b""
+
+    def _damaged(self, text: bytes, *, headed: bool) -> None:
+        if _DAMAGED_STOP.search(text.decode("latin-1")) or is_stop(text):
+            self._box.order(Stop())
+        elif headed:
+            self._box.note_refused(text)
 
     def _obey(self, command: Command) -> bytes:
         stopped, self._stopped = self._stopped, None
@@ -134,7 +150,7 @@ class ProsistelSession:
             case Command(axis, "?"):
                 self._stopped = stopped
                 value = self._angle(axis)
-            case Command(axis, "G", int() as number) if number in self._form.stops:
+            case Command(axis, "G", int() as number) if number >= STOPS_DEG * self._form.per_degree:
                 self._box.order(Stop() if stopped not in (None, axis) else Stop((axis,)))
                 self._stopped = axis
                 value = "R"

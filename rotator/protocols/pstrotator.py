@@ -10,10 +10,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from operator import gt
 
 from rotator.exchange.orders import Order, Park, Stop
 from rotator.orbits.earth import Site, direction
 from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
@@ -47,8 +49,9 @@ TAGS = (
 _OPEN, _CLOSE = "<PST>", "</PST>"
 _BETWEEN = re.compile(_CLOSE + r"\s*" + _OPEN)
 _ITEM = re.compile(r"\s*(?:<([A-Z][A-Z0-9]*)>([^<>]*)</\1>|([A-Z][A-Z0-9]*\?))\s*")
-_STOP = re.compile(r"<STOP>([^<>]*)</STOP>")
-_PLACE = re.compile(r"(-?\d{1,2}(?:\.\d{0,9})?), ?(-?\d{1,3}(?:\.\d{0,9})?), ?(-?\d{1,6}(?:\.\d{0,6})?)")
+_NO_STOP = b"<STOP>0</STOP>"
+_FARTHEST = (90.0, 180.0, 1e6)
+"""Degrees, degrees and metres of a place."""
 _SLIP = re.compile(r"(\d\.\d{6})\.2")
 """Hamlib's model 3 writes `%f.2` where it means `%.2f`."""
 
@@ -68,7 +71,7 @@ def parse(datagram: bytes) -> tuple[Item, ...]:
     if text.startswith(_OPEN) and text.endswith(_CLOSE) and len(text) >= len(_OPEN + _CLOSE):
         items = _items(_BETWEEN.sub(" ", text[len(_OPEN) : -len(_CLOSE)]))
     if items is None:
-        return tuple(Item("STOP", value.strip()) for value in _STOP.findall(text))
+        return (Item("STOP"),) if is_stop(datagram.upper().replace(_NO_STOP, b"")) else ()
     return items
 
 
@@ -105,10 +108,13 @@ class PstRotatorSession:
         self._remark = remark
 
     def receive(self, data: bytes) -> list[bytes]:
+        items = parse(data)
+        if not items:
+            self._box.note_refused(data)
         asked: dict[str, None] = {}
         before: list[Order] = []
         angles: dict[str, str] = {}
-        for item in parse(data):
+        for item in items:
             match item:
                 case Item("AZIMUTH" | "ELEVATION" as axis, str() as value):
                     angles[axis] = value
@@ -122,7 +128,7 @@ class PstRotatorSession:
                     )
                 case Item("TRACK", "0"):
                     pass
-                case Item("STOP", value):
+                case Item(tag, value) if tag.startswith("STOP"):
                     if value != "0":
                         # A stop cancels the orders before it in the datagram; those after it count.
                         before = [Stop()]
@@ -139,18 +145,19 @@ class PstRotatorSession:
                     self._remark(f"{tag[:24]}{shown} does nothing here")
         for order in before:
             self._box.order(order)
-        self._point(angles)
+        self._point(angles, data)
         return [answer for question in asked for answer in self._answer(question)]
 
     def idle(self) -> list[bytes]:
         return []
 
-    def _point(self, angles: dict[str, str]) -> None:
+    def _point(self, angles: dict[str, str], data: bytes) -> None:
         """One order for both axes, or for the one that is named. With a damaged number there is no order."""
         angles_deg = {axis: degrees(_SLIP.sub(r"\1", text)) for axis, text in angles.items()}
-        if not angles_deg or None in angles_deg.values():
-            return
-        self._box.order(aim(angles_deg.get("AZIMUTH"), angles_deg.get("ELEVATION")))
+        if None in angles_deg.values():
+            self._box.note_refused(data)
+        elif angles_deg:
+            self._box.order(aim(angles_deg.get("AZIMUTH"), angles_deg.get("ELEVATION")))
 
     def _answer(self, question: str) -> Iterator[bytes]:
         """No answer while the position is not known."""
@@ -173,11 +180,10 @@ class PstRotatorSession:
 
 def _angles_to(station: Site, text: str) -> dict[str, str]:
     """The direction of a place as the values of two tags; a damaged place as a damaged number."""
-    found = _PLACE.fullmatch(text)
-    place = Site(*(float(number) for number in found.groups())) if found else None
-    if place is None or abs(place.latitude_deg) > 90 or abs(place.longitude_deg) > 180:
+    numbers = [number for part in text.split(",") if (number := degrees(part)) is not None]
+    if len(numbers) != 3 or text.count(",") != 2 or any(map(gt, map(abs, numbers), _FARTHEST)):
         return {"AZIMUTH": ""}
-    seen = direction(station, place)
+    seen = direction(station, Site(*numbers))
     return {"AZIMUTH": f"{seen[0]:.3f}", "ELEVATION": f"{seen[1]:.3f}"} if seen else {}
 
 

@@ -15,6 +15,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from rotator.exchange.orders import Order, Stop
 from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
@@ -130,11 +131,21 @@ class PstRotatorAzSession:
         if end is None and len(self._buffer) <= MAX_REQUEST:
             return []
         self.closed = True
+        if is_stop(re.split(rb"[\r\n]", self._buffer)[0].partition(b"?")[2]):
+            # However the rest of it is written, and from anywhere: a stop cannot harm.
+            self._box.order(Stop())
+            return [self._page()]
         request = parse(bytes(self._buffer[: end.start()])) if end and end.end() <= MAX_REQUEST else None
         return [self._answer(request)]
 
     def idle(self) -> list[bytes]:
         return []
+
+    def finish(self) -> list[bytes]:
+        return self.receive(b"\n\n") if self._buffer else []
+
+    def _page(self) -> bytes:
+        return response(HTTPStatus.OK, page(self._box.status().azimuth.points_deg))
 
     def _answer(self, request: Request | None) -> bytes:
         if request is None:
@@ -145,13 +156,13 @@ class PstRotatorAzSession:
         if query:
             order = _order(query)
             if order is None:
+                self._box.note_refused(request.target.encode())
                 return response(HTTPStatus.BAD_REQUEST, "az=DEGREES or cmd=stop\n")
-            # A stop is obeyed from anywhere: it cannot harm.
-            if not isinstance(order, Stop) and not is_own(request):
+            if not is_own(request):
                 return response(HTTPStatus.FORBIDDEN, "name the box by its address; another web site may not turn it\n")
             if refused := self._box.order(order):
                 return response(HTTPStatus.CONFLICT, f"refused: {refused.reason}\n")
-        return response(HTTPStatus.OK, page(self._box.status().azimuth.points_deg))
+        return self._page()
 
 
 def _order(query: str) -> Order | None:
@@ -159,7 +170,5 @@ def _order(query: str) -> Order | None:
     match parse_qsl(query, keep_blank_values=True):
         case [("az", value)] if (azimuth_deg := degrees(value)) is not None:
             return aim(azimuth_deg, None)
-        case [("cmd", "stop")]:
-            return Stop()
         case _:
             return None

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 
 from hw.ports import Axis
 from rotator.exchange.orders import Stop
-from rotator.protocols.aiming import aim
-from rotator.protocols.lines import LineReader
+from rotator.protocols.aiming import SURE_NUMBER, aim, degrees
+from rotator.protocols.damaged import is_stop
+from rotator.protocols.lines import OVERLONG, LineReader
 from rotator.protocols.session import Box
 
-MAX_LINE = 16
+MAX_LINE = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,7 @@ VERBS = (
     Verb("E", "Elevation: go there", "25"),
     Verb("S", "Stop everything"),
 )
-_COMMAND = re.compile(r"([AE])(\d{1,3}(?:\.\d{0,6})?)?|(S)")
+_COMMAND = re.compile(rf"([AE])({SURE_NUMBER})?|S")
 _AXES = {"A": Axis.AZIMUTH, "E": Axis.ELEVATION}
 
 
@@ -50,11 +51,11 @@ class Command:
 def parse(line: bytes) -> Command | None:
     """The command in one line, without its end; None: the line is no command. Noise before it is skipped."""
     text = line.decode("latin-1").lstrip("".join(map(chr, (*range(0x21), *range(0x7F, 0x100)))))
-    if not (found := _COMMAND.fullmatch(text)):
-        return Command(None) if text.startswith("S") and not any(mark.isdigit() for mark in text) else None
-    if found[3]:
-        return Command(None)
-    return Command(_AXES[found[1]], float(found[2]) if found[2] else None)
+    found = _COMMAND.fullmatch(text)
+    if found is None or not found[1]:
+        return Command(None) if is_stop(line) else None
+    angle_deg = degrees(found[2] or "")
+    return None if found[2] and angle_deg is None else Command(_AXES[found[1]], angle_deg)
 
 
 def encode(command: Command) -> bytes:
@@ -94,11 +95,19 @@ class Rc2800Session:
         """The axis of the last command, which the answer to a stop shows."""
 
     def receive(self, data: bytes) -> list[bytes]:
-        commands = [parse(line) for line in self._lines.feed(data) if line]
-        return [self._obey(command) for command in commands if command]
+        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
 
     def idle(self) -> list[bytes]:
         return []
+
+    def finish(self) -> list[bytes]:
+        return [reply for line in self._lines.finish() for reply in self._answers(line)]
+
+    def _answers(self, line: bytes | None) -> list[bytes]:
+        command = parse(line) if line else None
+        if command is None and line != b"":
+            self._box.note_refused(OVERLONG if line is None else line)
+        return [self._obey(command)] if command else []
 
     def _obey(self, command: Command) -> bytes:
         refused = None

@@ -12,6 +12,9 @@ import string
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from rotator.protocols.aiming import degrees
+from rotator.protocols.damaged import is_stop
+
 MAX_LINE = 512
 
 OK = 0
@@ -26,8 +29,7 @@ QUESTION = "?"
 """In place of a name: list the names. No value follows it."""
 _SEPARATORS = frozenset(string.punctuation) - frozenset("\\_#")
 _BLANKS = re.compile(r"[ \t]+")
-_NUMBER = re.compile(r"[+-]?(\d{1,12}([.,]\d{0,12})?|[.,]\d{1,12})([eE][+-]?\d)?")
-"""A finite number in any locale; `nan` and `inf` are refused."""
+_OTHER_NAME = re.compile(rb"\W*se", re.IGNORECASE)
 _WHOLE = re.compile(r"[+-]?\d{1,9}")
 
 
@@ -146,6 +148,11 @@ def requests(line: str) -> Iterator[Request]:
         raise BadRequest(NOT_IMPLEMENTED)
 
 
+def is_damaged_stop(line: bytes) -> bool:
+    """Whether a line that is not understood was meant as a stop, and not as `set_pos` or another long name."""
+    return is_stop(line) and not _OTHER_NAME.match(line)
+
+
 def encode(request: Request) -> bytes:
     """A request as a client sends it."""
     letter = _BY_NAME[request.name].letter
@@ -173,10 +180,10 @@ def report(code: int) -> bytes:
 
 
 def number(word: str) -> float:
-    """A number with a decimal point or comma. Raises BadRequest."""
-    if not _NUMBER.fullmatch(word):
+    """Raises BadRequest."""
+    if (value := degrees(word)) is None:
         raise BadRequest(INVALID_PARAMETER)
-    return float(word.replace(",", "."))
+    return value
 
 
 def whole_number(word: str) -> int:

@@ -1,6 +1,6 @@
 """What the box tells rotctld's clients about itself: model, limits, abilities, settings, and the flags of motion.
 
-The box answers as a GS-232B, Hamlib's model 603. Decides which limits it reports: they are wider than the rotor's.
+The box answers as a GS-232B, Hamlib's model 603. Decides which limits it reports: never narrower than the sky.
 Knows the status and Hamlib's words for it. Gives no orders: the settings that a client may make have no effect.
 """
 
@@ -77,13 +77,17 @@ _CAPS_END = (
 def limits(status: Status) -> dict[str, float]:
     """The lowest and highest angles in degrees that the box reports, because some clients send nothing outside them.
 
-    Azimuth covers at least 0 to 360 and elevation is 0 to 180, also for a rotor with a smaller range: the box itself
-    finds the axis angles for every direction. The lowest azimuth is below 0 only if the rotor's is, because CQRLOG
-    takes a negative one for a shifted scale.
+    The axes' own, and at least 0 to 360 and 0 to 180 for a rotor with a smaller range: the box itself finds the axis
+    angles for every direction. The lowest azimuth is below 0 only if the rotor's is, because CQRLOG takes a negative
+    one for a shifted scale.
     """
-    min_az_deg = min(0.0, status.azimuth.min_deg)
-    max_az_deg = max(360.0, status.azimuth.max_deg)
-    return {"min_az": min_az_deg, "max_az": max_az_deg, "min_el": 0.0, "max_el": 180.0}
+    azimuth, elevation = status.azimuth, status.elevation
+    return {
+        "min_az": min(0.0, azimuth.min_deg),
+        "max_az": max(360.0, azimuth.max_deg),
+        "min_el": min(0.0, elevation.min_deg),
+        "max_el": max(180.0, elevation.max_deg),
+    }
 
 
 def dump_state(status: Status) -> Answer:

@@ -11,7 +11,7 @@ from rotator import __version__
 from rotator.exchange.orders import Jog, Order, Park, Speed, Stop
 from rotator.protocols import rotctld_caps, rotctld_earth
 from rotator.protocols.aiming import aim
-from rotator.protocols.lines import LineReader
+from rotator.protocols.lines import OVERLONG, LineReader
 from rotator.protocols.rotctld import (
     INVALID_PARAMETER,
     IO_ERROR,
@@ -25,6 +25,7 @@ from rotator.protocols.rotctld import (
     BadRequest,
     Request,
     encode_answer,
+    is_damaged_stop,
     number,
     report,
     requests,
@@ -65,17 +66,21 @@ class RotctldSession:
         return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
 
     def idle(self) -> list[bytes]:
-        pending = self._lines.pending.decode("latin-1")
+        pending = self._lines.pending
         try:
-            whole = bool(pending) and all(map(_complete, requests(pending)))
+            whole = bool(pending) and all(map(_complete, requests(pending.decode("latin-1"))))
         except BadRequest:
-            return []
+            whole = is_damaged_stop(pending)
         return self._answers(self._lines.flush()) if whole else []
+
+    def finish(self) -> list[bytes]:
+        return [reply for line in self._lines.finish() for reply in self._answers(line)]
 
     def _answers(self, line: bytes | None) -> list[bytes]:
         if self.closed:
             return []
         if line is None:
+            self._box.note_refused(OVERLONG)
             return [report(INVALID_PARAMETER)]
         if line.startswith(REPORT):
             # A port that echoes sends it back: an answer to it would come back too.
@@ -84,7 +89,7 @@ class RotctldSession:
             # The whole line is parsed before any command is obeyed: KEEPALIVE must not park the antenna.
             understood = list(requests(line.decode("latin-1")))
         except BadRequest as fault:
-            return [report(fault.code)]
+            return [encode_answer(Request(""), self._refuse(line, fault.code))]
         replies = []
         for request in understood:
             if request.name == "quit":
@@ -93,9 +98,15 @@ class RotctldSession:
             try:
                 answer = self._answer(request)
             except BadRequest as fault:
-                answer = Answer(fault.code)
+                answer = self._refuse(line, fault.code)
             replies.append(encode_answer(request, answer))
         return replies
+
+    def _refuse(self, line: bytes, code: int) -> Answer:
+        if is_damaged_stop(line):
+            return self._order(Stop())
+        self._box.note_refused(line)
+        return Answer(code)
 
     def _answer(self, request: Request) -> Answer:
         words = request.arguments
@@ -107,8 +118,9 @@ class RotctldSession:
             case "stop":
                 return self._order(Stop())
             case "reset":
+                answer = self._order(Stop())  # whatever the number is
                 whole_number(words[0])
-                return self._order(Stop())
+                return answer
             case "park":
                 return self._order(Park())
             case "move":

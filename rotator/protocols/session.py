@@ -22,6 +22,9 @@ class Box(Protocol):
     def order(self, order: Order) -> Refusal | None:
         """Hand over an order. A Refusal: the order has no effect, with the reason; it is in the log already."""
 
+    def note_refused(self, refused: Refusal | bytes) -> None:
+        """For the log: why the protocol itself refuses an order, or the bytes that it does not understand."""
+
 
 class Tracking(Protocol):
     """What tracks targets of the sky by itself. No call waits."""
@@ -78,6 +81,14 @@ class Session(Protocol):
 
     def idle(self) -> list[bytes]:
         """The line has been silent for `idle_s`: the buffered bytes are all that will come."""
+
+
+@runtime_checkable
+class Finishing(Protocol):
+    """A session to which the end of a connection is the end of a line: `echo -n "P 180 45" | nc`."""
+
+    def finish(self) -> list[bytes]:
+        """The client has sent its last byte, and has ended the connection itself. Replies as of `receive`."""
 
 
 @runtime_checkable

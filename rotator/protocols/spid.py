@@ -121,6 +121,8 @@ def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
     the number that the controller sends in its answers.
     """
     row = _BY_COMMAND.get(octets[_COMMAND_AT])
+    if octets[0] == START and _is_damaged_stop(octets):
+        return Frame(Command.STOP)
     if octets[0] != START or octets[_END_AT] != END or row is None or model not in row.models:
         return None
     match row.command:
@@ -138,6 +140,12 @@ def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
             return Frame(Command.MOVE, turn=turn) if turn in TURNS else None
         case _:
             return Frame(row.command)
+
+
+def _is_damaged_stop(octets: bytes) -> bool:
+    """A stop with another last byte, or nothing but zeros and a command byte that has only lower bits."""
+    zeros = not any(octets[1:_COMMAND_AT]) and octets[_END_AT] == END
+    return octets[_COMMAND_AT] == Command.STOP or (zeros and octets[_COMMAND_AT] <= Command.STOP)
 
 
 def encode(frame: Frame, model: Model, pulses: int) -> bytes:

@@ -66,6 +66,8 @@ class WsjtxSession:
     def receive(self, data: bytes) -> list[bytes]:
         direction = parse(data, self._body)
         if direction is None:
+            if b"\n" in data:
+                self._box.note_refused(data)
             return []
         before_s, self._written_s = self._written_s, direction.second_of_day
         if before_s is None or not 0 < (direction.second_of_day - before_s) % DAY_S <= LONGEST_PAUSE_S:

@@ -22,6 +22,8 @@ from rotator.runtime.loop import ControlLoop
 log = logging.getLogger(__name__)
 
 MOST_PER_S = 100
+SHOWN_BYTES = 60
+"""Of bytes that are no order, in the log."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +74,7 @@ class Client:
         """Hand an order to the control loop, or return why it is refused; the log has the reason then. Never waits."""
         refused = self._forbidden(order) or refusal(order, self._loop.status, self._mount)
         if refused:
-            self._complain(f"refused: {refused.reason}", self._ranges if refused.out_of_range else self._complaints)
+            self.note_refused(refused)
             if refused.faulty:
                 self._loop.post(self._source, Unheeded(order), can_wait=True)
         else:
@@ -89,9 +91,11 @@ class Client:
         if self._has_ordered:
             self._loop.post(self._source, Leave())
 
-    def note_refused(self, reason: str) -> None:
-        """Log an order that the protocol itself refused: its angle does not exist in this protocol."""
-        self._complain(f"refused: {reason}", self._ranges)
+    def note_refused(self, refused: Refusal | bytes) -> None:
+        """Log why an order is refused, or the bytes that the protocol does not understand."""
+        if isinstance(refused, bytes):
+            refused = Refusal(f"{refused[:SHOWN_BYTES].decode('latin-1')!a} is no order")
+        self._complain(f"refused: {refused.reason}", self._ranges if refused.out_of_range else self._complaints)
 
     def _forbidden(self, order: Order) -> Refusal | None:
         if not self._rights.read_only:

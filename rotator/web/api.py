@@ -15,7 +15,7 @@ from aiohttp import web
 from rotator.exchange.orders import Jog, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
-from rotator.protocols.methods import METHODS, Method
+from rotator.protocols.methods import METHODS, Method, WrongValuesError
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
@@ -184,7 +184,11 @@ class Api:
         async def answer(request: web.Request) -> web.StreamResponse:
             who = self._entrance.who(request) if method.free else self._entrance.must_be_paired(request)
             # A stop counts with any body.
-            command = method.command({} if method.free else await values_of(request))
+            try:
+                command = method.command({} if method.free else await values_of(request))
+            except WrongValuesError as reason:
+                self._as(who).refuse(str(reason))
+                raise
             if isinstance(command, Release) and self._has_stopped_since(request):
                 return error(412, "it has been stopped again meanwhile: look at it, and press once more")
             refused = self._as(who).do(command)

@@ -30,7 +30,8 @@ class RefusedError(Exception):
 
 
 class Entrance:
-    """`reading_open`: reading without pairing is allowed. `most_body`: bytes by path, for longer requests."""
+    """`reading_open`: reading without pairing is allowed. `most_body`: bytes by path, for longer requests; 0: the body
+    is not read, and may have any length."""
 
     def __init__(self, doors: Doors, pairings: Pairings, connections: Connections, *, reading_open: bool) -> None:
         self._doors = doors
@@ -46,7 +47,7 @@ class Entrance:
             if refused := self._refused(request):
                 return error(403, refused)
             most = self.most_body.get(request.path, MOST_BODY)
-            if request.content_length is not None and request.content_length > most:
+            if most and request.content_length is not None and request.content_length > most:
                 return error(413, _TOO_LONG.format(most))
             return await handler(request)
         except web.HTTPMethodNotAllowed:

@@ -9,12 +9,14 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+import re
 from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
 from aiohttp import WSMsgType, web
 
+from rotator.protocols.damaged import is_stop
 from rotator.protocols.panel_words import TURNS
 from rotator.web.holding import LEASE_S, Holding, Pictures
 from rotator.web.slow_reader import dropped_if_slow
@@ -24,7 +26,9 @@ log = logging.getLogger(__name__)
 EVERY_S = 0.1
 TAKES_S = 5.0
 """Seconds: a browser that needs longer to take a picture is dropped."""
-LONGEST_SIGN = 256
+LONGEST_SIGN = 4096
+"""Many more bytes than any of them needs: a longer one ends the connection unread, and it may be a damaged stop."""
+_NO_STOP = re.compile(rb'"stop"\s*:\s*(?:false|null)')
 MOST_SIGNS_PER_S = 40
 MOST_WATCHERS = 80
 Answer = dict[str, str | int]
@@ -146,21 +150,22 @@ class Live:
     async def _listen(self, socket: web.WebSocketResponse, holding: Holding | None, stop: Callable[[], str]) -> None:
         second, signs = 0, 0
         async for message in socket:
-            if message.type is not WSMsgType.TEXT:
+            if message.type not in (WSMsgType.TEXT, WSMsgType.BINARY):
                 return
+            said = message.data if isinstance(message.data, bytes) else message.data.encode()
             now_s = self._clock()
             second, signs = (second, signs + 1) if int(now_s) == second else (int(now_s), 1)
-            if message.data.replace(" ", "") == '{"stop":true}':
+            if is_stop(said) and not _NO_STOP.search(said):
                 answer: Answer = {"refused": stop()}
             elif signs > MOST_SIGNS_PER_S:
                 return
             else:
-                answer = _act(message.data, holding, now_s)
+                answer = _act(said, holding, now_s)
             if answer["refused"]:
                 await socket.send_str(json.dumps(answer))
 
 
-def _act(text: str, holding: Holding | None, now_s: float) -> Answer:
+def _act(text: bytes, holding: Holding | None, now_s: float) -> Answer:
     """Carry out a message. Returns the number of the press and why it was refused; empty: done."""
     try:
         sign = json.loads(text)

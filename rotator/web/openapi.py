@@ -11,7 +11,7 @@ from typing import Any
 from rotator import __version__
 from rotator.protocols.methods import Method
 from rotator.protocols.status_object import AXIS_FIELDS, FAULT_FIELDS, FIELDS, FLOWN_FIELDS, Field
-from rotator.web.route import FREE, PAIRED, REFUSED, Handler, Route, post, refusals
+from rotator.web.route import FREE, MOST_BODY, PAIRED, REFUSED, Handler, Route, post, refusals
 from rotator.web.scene_schema import PICTURE
 from rotator.web.schema import (
     NUMBER,
@@ -82,7 +82,8 @@ def order(method: Method, serve: Handler) -> Route:
     body = body_of(values, example={value.name: value.example for value in method.values}) if values else None
     access, since = FREE if method.free else PAIRED, method.name == "resume"
     headers, more = (SINCE, refusals(412)) if since else ({}, {})
-    route = post(f"/api/{method.name}", serve, method.meaning, body, access=access, headers=headers, more=more)
+    takes: dict[str, Any] = {"most_body": 0 if method.free else MOST_BODY, "headers": headers, "more": more}
+    route = post(f"/api/{method.name}", serve, method.meaning, body, access=access, **takes)
     route.described["operationId"] = method.name
     return route
 

@@ -88,6 +88,10 @@ class Listener(Example):
 
     def __init__(self) -> None:
         self.orders: list[Order] = []
+        self.refused: list[Refusal | bytes] = []
+
+    def note_refused(self, refused: Refusal | bytes) -> None:
+        self.refused.append(refused)
 
     def order(self, order: Order) -> Refusal | None:
         self.orders.append(order)
@@ -119,10 +123,6 @@ def test_what_gives_orders_and_hears_nothing(keys: str, sent: list[bytes], order
 class Strict(Listener):
     """A 450° rotor's box that keeps why it refuses."""
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.refused: list[Refusal] = []
-
     def order(self, order: Order) -> Refusal | None:
         refused = refusal(order, self.status(), Mount(Range(0, 450), Range(0, 180)))
         if refused:
@@ -141,6 +141,9 @@ OUT_OF_RANGE = [
     ('protocol = "rc2800"', b"E200\r"),
     ('protocol = "pstrotatoraz"', pstrotatoraz.encode("/PstRotatorAz.htm?az=600")),
     ('protocol = "pstrotator"', b"<PST><AZIMUTH>600</AZIMUTH></PST>"),
+    ('protocol = "gs232b"', b"W100 200\r"),
+    ('protocol = "gs232a"', b"W010 010 181\r"),
+    ('protocol = "gs232-f1efw"', b"W100 200\r"),
     ('protocol = "macdoppler"', b"[AzEl Rotor Report:Azimuth:39.00, Elevation:-95.00]"),
 ]
 
@@ -150,6 +153,7 @@ def test_an_order_out_of_range_is_refused_by_the_box_which_logs_it(keys: str, sa
     box = Strict()
     session_maker(link(keys), box).receive(said)
     (refused,) = box.refused
+    assert isinstance(refused, Refusal)
     assert refused.out_of_range
     assert " is outside " in refused.reason
 
@@ -158,7 +162,8 @@ def test_an_order_out_of_range_is_refused_by_the_box_which_logs_it(keys: str, sa
     ("keys", "said"),
     [
         ('protocol = "gs232a"', b"W470 020\r"),
-        ('protocol = "gs232b"', b"W100 200\r"),
+        ('protocol = "gs232b"', b"M1234\r"),
+        ('protocol = "gs232b"', b"M010 020 451\r"),
         ('protocol = "gs232b"', b"P36\rM400\r"),
         ('protocol = "gs232-f1efw"', b"W470 020\r"),
         ('protocol = "dcu1"', b"AP1400;AM1;"),
@@ -166,11 +171,13 @@ def test_an_order_out_of_range_is_refused_by_the_box_which_logs_it(keys: str, sa
     ],
 )
 def test_an_order_out_of_the_protocol_s_own_range_is_logged_too(keys: str, said: bytes) -> None:
-    box, reasons = Listener(), list[str]()
-    session_maker(link(keys), box, refused=reasons.append).receive(said)
+    box = Listener()
+    session_maker(link(keys), box).receive(said)
     assert box.orders == []
-    (reason,) = reasons
-    assert " is outside " in reason
+    (refused,) = box.refused
+    assert isinstance(refused, Refusal)
+    assert refused.out_of_range
+    assert " is outside " in refused.reason
 
 
 def test_what_it_does_not_know_it_remarks() -> None:

@@ -26,6 +26,9 @@ class Standing:
     def status(self) -> Status:
         return self._status
 
+    def note_refused(self, _refused: Refusal | bytes) -> None:
+        """Nobody reads the log here."""
+
     def order(self, order: Order) -> Refusal | None:
         return Refusal(f"not here: {order}")
 

@@ -35,6 +35,9 @@ class Standing:
     def status(self) -> Status:
         return self._status
 
+    def note_refused(self, _refused: Refusal | bytes) -> None:
+        """Nobody reads the log here."""
+
     def order(self, _order: Order) -> Refusal | None:
         raise AssertionError("nothing is ordered here")
 

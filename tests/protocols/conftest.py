@@ -74,6 +74,8 @@ class BenchBox:
         """The antenna turns as its motors are driven; else it stays where it is put."""
         self._at_once = at_once
         self._blind = blind
+        self.refused: list[Refusal | bytes] = []
+        """What the protocol itself refused."""
         self._waiting: list[tuple[Source, Order]] = []
         self._ranges = {Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation}
         self._mount = Mount(Range(*azimuth), Range(*elevation))
@@ -106,6 +108,9 @@ class BenchBox:
             if self._at_once:
                 self._cycle()
         return refused
+
+    def note_refused(self, refused: Refusal | bytes) -> None:
+        self.refused.append(refused)
 
     def stands_at(self, azimuth_deg: float, elevation_deg: float) -> None:
         """Turn the antenna by hand, and wait until the box has seen that it stays there."""

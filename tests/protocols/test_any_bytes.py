@@ -6,6 +6,7 @@ The second readings below are written from the protocols' descriptions, by hand 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -69,9 +70,15 @@ LETTERS = {
 
 
 def decimal(word: bytes, mark: bytes) -> float | None:
-    whole, point, part = word.partition(mark)
-    good = whole.isdigit() and len(whole) <= 3 and (part.isdigit() and len(part) <= 6 if point else not part)
-    return float(whole + b"." + (part or b"0")) if good else None
+    """A sign and an exponent without a sign belong only to a number with a decimal mark: `-35` may be a damaged 135."""
+    base, power, exponent = word.lower().partition(b"e")
+    whole, point, part = base.removeprefix(b"-").removeprefix(b"+").partition(mark)
+    digits = (whole + part).isdigit() and (bool(whole) or (bool(part) and mark == b"."))
+    signed = base[:1] in (b"-", b"+")
+    good = digits and base.count(b"-") + base.count(b"+") == signed and (bool(point) or not signed)
+    if power:
+        good = good and exponent.lstrip(b"+-").isdigit() and (bool(point) or exponent[:1] in (b"-", b"+"))
+    return float(base.replace(b",", b".") + (power and power + exponent)) if good else None
 
 
 def either(word: bytes) -> float | None:
@@ -99,12 +106,30 @@ def gs232_aim(letter: bytes, text: bytes) -> list[Aim] | list[LoadTimed]:
         azimuth, elevation = (decimal(word.strip(b" "), b".") for word in text.split(b","))
     else:
         return []
-    if azimuth is None or elevation is None or azimuth > 450 or elevation > 180:
+    if azimuth is None or elevation is None or azimuth > 450 or azimuth < -180 or not -90 <= elevation <= 180:
         return []
-    return [Aim(azimuth, None if letter == b"M" else elevation)]
+    return [Aim(azimuth % 360 if azimuth < 0 else azimuth, None if letter == b"M" else elevation)]
 
 
-def gs232_motions(heard: bytes, dialect: Dialect) -> list[Order]:
+def gs232_within(line: bytes) -> list[Aim]:
+    """A W behind something else, with all six digits at the line's end."""
+    at = line.upper().rfind(b"W")
+    digits = line[at + 1 :].strip(b" ").rstrip(b" ;\0")
+    six = digits[:3] + digits[3:].removeprefix(b" ")
+    good = at >= 0 and len(six) == 6 and six.isdigit() and digits[:3].isdigit()
+    return [Aim(float(six[:3]), float(six[3:]))] if good and float(six[:3]) <= 450 and float(six[3:]) <= 180 else []
+
+
+def is_stop(line: bytes) -> bool:
+    """The word, or a line with an S in front: alone, or without a digit."""
+    letters = re.sub(rb"^[^A-Z0-9]*", b"", line.upper())
+    rest = letters[1:]
+    alone = not rest or not rest[:1].isalnum()
+    cut_off = re.search(rb"<S(T|TO)?(?![A-Z0-9])", line.upper()) is not None
+    return b"STOP" in line.upper() or cut_off or (letters[:1] == b"S" and (alone or not re.search(rb"[0-9]", rest)))
+
+
+def gs232_motions(heard: bytes, dialect: Dialect, *, strict: bool) -> list[Order]:
     """Exactly what a GS-232 is to do."""
     motions: list[Order] = []
     top_deg, listed = 450, False
@@ -117,15 +142,20 @@ def gs232_motions(heard: bytes, dialect: Dialect) -> list[Order]:
             line = line[:-1]
         doubtful = len(line) < ended and not set(map(len, line[1:].split())) <= {3, 6}
         letter, rest = line[:1].upper(), line[1:]
+        orders = gs232_aim(letter, rest.strip(b" ")) if letter in (b"M", b"W") and not doubtful else []
+        if line and is_stop(raw):
+            continue
+        if not strict and not orders and len(line) > 1:
+            orders = gs232_within(raw)
         if line.upper() in (b"P36", b"P45") and dialect is Dialect.B:
             top_deg = 360 if rest == b"36" else 450
         elif not rest:
             motions += [LETTERS[letter]] if letter in LETTERS else []
             motions += [RunTimed()] if letter == b"T" and listed else []
             listed = listed and letter not in b"MW"
-        elif letter in (b"M", b"W"):
+        elif letter in (b"M", b"W") or orders:
             listed = False
-            for order in [] if doubtful else gs232_aim(letter, rest.strip(b" ")):
+            for order in orders:
                 points = order.points if isinstance(order, LoadTimed) else ((order.azimuth_deg or 0.0, None),)
                 if max(azimuth for azimuth, _ in points) <= top_deg:
                     listed = isinstance(order, LoadTimed)
@@ -144,13 +174,17 @@ def f1efw_motions(heard: bytes) -> list[Order]:
         return heard[at:end]
 
     for start in (at for at, byte in enumerate(heard) if byte in b"Ww"):
-        azimuth = run_of(b"0123456789", start + 1)
-        gap = run_of(b" ,;\t", start + 1 + len(azimuth))
-        at = start + 1 + len(azimuth) + len(gap)
+        begin = start + 1 + len(run_of(b" \t", start + 1))
+        azimuth = run_of(b"0123456789", begin)
+        six = len(azimuth) == 6
+        azimuth = azimuth[:3] if six else azimuth
+        gap = b"" if six else run_of(b" ,;\t", begin + len(azimuth))
+        at = begin + len(azimuth) + len(gap)
         minus = heard[at : at + 1] == b"-"
         elevation = run_of(b"0123456789", at + minus)
         complete = at + minus + len(elevation) < len(heard)
-        if complete and 1 <= len(azimuth) <= 3 and 1 <= len(gap) <= 8 and 1 <= len(elevation) <= 3:
+        apart = six or 1 <= len(gap) <= 8
+        if begin - start <= 9 and complete and 1 <= len(azimuth) <= 3 and apart and 1 <= len(elevation) <= 3:
             elevation_deg = -float(elevation) if minus else float(elevation)
             if float(azimuth) <= 450 and elevation_deg <= 180:
                 motions.append(Aim(float(azimuth), elevation_deg, engaged=elevation_deg > 0))
@@ -176,7 +210,8 @@ def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pie
         session.receive(piece)
     match protocol:
         case "gs232a" | "gs232b" | "gs232b, strict":
-            assert box.motions == gs232_motions(heard, Dialect.A if protocol == "gs232a" else Dialect.B)
+            dialect = Dialect.A if protocol == "gs232a" else Dialect.B
+            assert box.motions == gs232_motions(heard, dialect, strict="strict" in protocol)
         case "gs232-f1efw":
             assert box.motions == f1efw_motions(heard)
     if not box.motions:

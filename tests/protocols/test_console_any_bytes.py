@@ -6,6 +6,7 @@ The second reading is written from docs/reference/wire.md, by hand and without t
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -15,7 +16,9 @@ from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
+from rotator.exchange.sources import Refusal
 from rotator.exchange.status import AxisStatus, Status
+from rotator.protocols.console import COMMANDS, VERBS
 from rotator.protocols.console_session import ConsoleSession
 from tests.protocols.fed import assert_not_kept
 from tests.search import examples
@@ -40,7 +43,7 @@ LINES = st.one_of(
 )
 PIECES = st.lists(st.one_of(st.binary(max_size=6), WORDS, NUMBERS, BLANKS, ENDS, LINES, LINES), max_size=30)
 
-ANGLE = rb"[+-]?\d{1,3}(?:[.,]\d{0,9})?"
+ANGLE = rb"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?,?"
 READINGS: dict[re.Pattern[bytes], Callable[..., Order | None]] = {
     re.compile(rb"stop(?: .*)?", re.DOTALL): lambda: Stop(latch=True),
     re.compile(rb"resume"): Release,
@@ -70,6 +73,9 @@ class Notebook:
     def status(self) -> Status:
         return self._status
 
+    def note_refused(self, _refused: Refusal | bytes) -> None:
+        """Nobody reads the log here."""
+
     def order(self, order: Order) -> None:
         self.orders.append(order)
         match order:
@@ -80,7 +86,7 @@ class Notebook:
 
 
 def number(text: bytes) -> float:
-    return float(text.replace(b",", b"."))
+    return float(re.sub(rb"[.,]$", b"", text).replace(b",", b"."))
 
 
 def jog(way: bytes, seconds: float) -> Order | None:
@@ -88,7 +94,7 @@ def jog(way: bytes, seconds: float) -> Order | None:
 
 
 def confirm(axis: bytes, angle: float) -> Order | None:
-    low, high = (-180, 540) if axis == b"azimuth" else (-90, 180)
+    low, high = (-360, 720) if axis == b"azimuth" else (-90, 210)
     return Confirm(Axis(axis.decode()), angle) if low <= angle <= high else None
 
 
@@ -100,13 +106,19 @@ def point(azimuth: float, elevation: float) -> Order | None:
 
 
 def orders_in(heard: bytes) -> list[Order]:
-    """Everything that the lines order, whether a stop holds or not."""
+    """Everything that the lines order, whether a stop holds or not. A damaged stop is one."""
     orders: list[Order] = []
     for raw in re.split(rb"[\r\n]", heard)[:-1]:
         line = re.sub(rb"[ \t]+", b" ", raw).strip(b" ").lower()
         for form, order in READINGS.items():
             if len(raw) <= 200 and (found := form.fullmatch(line)) and (said := order(*found.groups())) is not None:
                 orders.append(said)
+        word = line.split(b" ")[0].decode("latin-1")
+        meant = difflib.get_close_matches(word, ["stop"], cutoff=0.7)
+        if word not in (*COMMANDS, *(verb.text for verb in VERBS)) and (
+            b"stop" in line or meant or word in ("s", "st", "sto")
+        ):
+            orders.append(Stop(latch=True))
     return orders
 
 

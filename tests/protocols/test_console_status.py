@@ -73,6 +73,9 @@ class AtTheBox:
     def status(self) -> Status:
         return self._box.status()
 
+    def note_refused(self, _refused: Refusal | bytes) -> None:
+        """Nobody reads the log here."""
+
     def order(self, order: Order) -> Refusal | None:
         return self._box.order(order, Source("console", 1))
 

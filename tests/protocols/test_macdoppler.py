@@ -20,7 +20,7 @@ ROWS: list[tuple[bytes, list[Order]]] = [
     (b"00002008 Tauranga [AzEl Rotor Report:Azimuth:90.00, Elevation:20.00, SatName:AO-92]\0\r\n", [Aim(90, 20)]),
     (b"[AzEl Rotor Report:Azimuth:350.00, Elevation:0.00]", [Aim(350, 0)]),
     (b"[AzEl Rotor Report:Azimuth:350.87,Elevation:7.40,SatName:ISS [ZARYA]]", [Aim(350.87, 7.4)]),
-    (b"[AzEl Rotor Report:Azimuth:350,87, Elevation:7,40]", []),
+    (b"[AzEl Rotor Report:Azimuth:350,87, Elevation:7,40]", [Aim(350.87, 7.4)]),
     (b"[AzEl Rotor Report:Azimuth:200.00, Elevation:-12.50, SatName:SO-50]", [Aim(200, -12.5)]),
     # other reports
     (b"00000001 Mac [Sat Radio Report:Down Mhz:435.18000, Down Mode:FM, Up MHz:145.85, Up Mode:FM, SatName:SO-50]", []),

@@ -24,6 +24,9 @@ class Mast:
     def status(self) -> Status:
         return self._status
 
+    def note_refused(self, _refused: Refusal | bytes) -> None:
+        """Nobody reads the log here."""
+
     def order(self, order: Order) -> Refusal | None:
         raise AssertionError(order)
 

@@ -31,6 +31,7 @@ ROWS: list[tuple[bytes, list[Order]]] = [
     (b"<N1MMRotor><rotor>G-5500</rotor><goazi>123.4</goazi><stop>True</stop></N1MMRotor>", [Stop()]),
     # a stop counts even in a damaged message
     (b"<N1MMRotor><goazi>1x2</goazi><stop><rotor>G-5500</rotor></stop></N1MMRotor>", [Stop()]),
+    (b"<N1MMRotor><stop><rotor>G-5500</rotor></N1MMRotor>", [Stop()]),
     # none of these is an order
     (b"", []),
     (b"<N1MMRotor></N1MMRotor>", []),
@@ -43,7 +44,6 @@ ROWS: list[tuple[bytes, list[Order]]] = [
     (GO.replace(b"55.0", b"-1"), []),
     (GO.replace(b"<goazi>55.0</goazi>", b""), []),
     (b"<RadioInfo><goazi>55.0</goazi></RadioInfo>", []),
-    (b"<N1MMRotor><stop><rotor>G-5500</rotor></N1MMRotor>", []),
 ]
 
 

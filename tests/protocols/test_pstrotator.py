@@ -79,7 +79,7 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
     (b"<PST><AZIMUTH>8x5</AZIMUTH><ELEVATION>45</ELEVATION></PST>", [], []),
     (b"<PST><AZIMUTH></AZIMUTH><ELEVATION>45</ELEVATION></PST>", [], []),
     (b"<PST><AZIMUTH>nan</AZIMUTH></PST>", [], []),
-    (b"<PST><AZIMUTH>1e2</AZIMUTH></PST>", [], []),
+    (b"<PST><AZIMUTH>1e999</AZIMUTH></PST>", [], []),
     (b"<PST><AZIMUTH>8\xb25</AZIMUTH></PST>", [], []),
     (b"<PST><AZIMUTH>235.5.2</AZIMUTH></PST>", [], []),
     (b"<PST><AZIMUTH>541</AZIMUTH></PST>", [], []),

@@ -39,6 +39,9 @@ class Visitor:
     def status(self) -> Status:
         return self._box.status()
 
+    def note_refused(self, _refused: Refusal | bytes) -> None:
+        """Nobody reads the log here."""
+
     def order(self, _order: Order) -> Refusal:
         return Refusal("the link is read_only", forbidden=True)
 

@@ -85,7 +85,7 @@ def test_orders(box: BenchBox, line: str, orders: list[Order]) -> None:
             "M CW x",
             "M CW 1.5",
         ),
-        *("V SPEED", "V SPEED 0", "V SPEED 5", "V SPEED 2.0", "V SPEED x", "R", "R x", "\\pause", "\\pause x"),
+        *("V SPEED", "V SPEED 0", "V SPEED 5", "V SPEED 2.0", "V SPEED x", "R", "\\pause", "\\pause x"),
         *("M 16\n50", "P 12.5\n7.5"),
     ],
 )

@@ -96,7 +96,7 @@ def test_an_answer_in_pieces(box: BenchBox, follower: RotctldFollower) -> None:
     assert box.orders == [place(235, 25)]
 
 
-@pytest.mark.parametrize("said", [b"RPRT -5\n", b"RPRT -6\n", b"1000.00\n25.00\n", b"10.00\n200.00\n"])
+@pytest.mark.parametrize("said", [b"RPRT -5\n", b"RPRT -6\n", b"1000.00\n25.00\n", b"10.00\n220.00\n"])
 def test_an_answer_without_a_direction_moves_nothing_and_is_told(
     box: BenchBox, follower: RotctldFollower, said: bytes
 ) -> None:

@@ -15,6 +15,7 @@ from rotator.assembly.station import Station
 from rotator.config.load import parse
 from rotator.exchange.orders import Aim, Calibrate, Jog, Order, Park, Speed, Stop
 from rotator.exchange.sources import Source
+from rotator.protocols.aiming import outside
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
@@ -147,10 +148,12 @@ def test_a_target_out_of_range_is_in_the_log_once_a_minute(
 
 def test_what_a_protocol_refuses_itself_shares_that_line(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
     client = bench.client()
-    client.note_refused("azimuth 470 is outside 0 to 450 degrees")
+    client.note_refused(outside(470, 450))
     client.order(Aim(-500, 10))
-    (record,) = caplog.records
-    assert record.message == "link#1: refused: azimuth 470 is outside 0 to 450 degrees"
+    client.note_refused(b"P 1x0 \xff" + b"5" * 100)
+    first, second = (record.message for record in caplog.records)
+    assert first == "link#1: refused: azimuth 470 is outside 0 to 450 degrees"
+    assert second == "link#1: refused: 'P 1x0 \\xff" + "5" * 53 + "' is no order"
 
 
 # --- most_per_s

@@ -44,6 +44,9 @@ class Example:
     def status(self) -> Status:
         return Status(0.0, AxisStatus(0, 450, AZIMUTH_DEG), AxisStatus(0, 180, ELEVATION_DEG))
 
+    def note_refused(self, refused: Refusal | bytes) -> None:
+        """There is no log."""
+
     def order(self, _order: Order) -> Refusal | None:
         return None
 

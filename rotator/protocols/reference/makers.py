@@ -74,7 +74,7 @@ def prosistel_table() -> str:
         sent, answers = [], []
         for model, form in prosistel.FORMS.items():
             number = "" if verb.text != "G" else f"{AZIMUTH_DEG * form.per_degree:g}"
-            text = f"G{max(form.stops)}" if verb.text == "G999" else verb.text
+            text = f"G{1000 * form.per_degree - 1}" if verb.text == "G999" else verb.text
             said = f"\x02A{text}{number}\r".encode()
             sent.append(shown(said))
             answers.append(shown(b"".join(ProsistelSession(Example(), model).receive(said))))

@@ -10,6 +10,7 @@ import pytest
 from rotator.assembly.sessions import session_maker
 from rotator.config.links import Link, ProtocolName
 from rotator.exchange.orders import Order
+from rotator.exchange.sources import Refusal
 from rotator.exchange.status import AxisStatus, Status
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
@@ -37,6 +38,9 @@ class Notebook:
 
     def status(self) -> Status:
         return Status(0.0, AxisStatus(0, 450, 235.0), AxisStatus(0, 180, 25.0))
+
+    def note_refused(self, _refused: Refusal | bytes) -> None:
+        """Nobody reads the log here."""
 
     def order(self, order: Order) -> None:
         self.orders.append(order)
