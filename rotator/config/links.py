@@ -76,8 +76,8 @@ class Link(Table):
     """GS-232: answer as Yaesu's manual: as ack and empty_line; B: O and F wait for a Y, Z changes the centre that H3
     shows."""
     axis: Literal["azimuth", "elevation"] | None = None
-    """dcu1, n1mm, pstrotatoraz, rot1prog: the axis that the bearing turns, where each axis has a port of its own, as
-    with two RT-21; a stop is for it alone. Left out, azimuth, and a stop is for all."""
+    """dcu1, n1mm, pstrotatoraz, rot1prog: the axis that the bearing turns, where each has a port of its own; a stop is
+    for it alone. Left out, azimuth, and a stop is for all."""
     may_calibrate: bool = False
     """GS-232: O, F, O2 and F2 take the reading as an end of the range."""
     report_moves: bool = False

@@ -227,7 +227,8 @@ def test_positions_have_two_decimals(new_box: type[BenchBox]) -> None:
         ((0, 450), (0, 180), (0, 450, 0, 180)),
         ((0, 360), (0, 90), (0, 360, 0, 180)),  # a direction past the zenith is turned into one before it
         ((-180, 180), (0, 180), (-180, 360, 0, 180)),
-        ((180, 540), (-10, 90), (0, 540, 0, 180)),  # below zero only if need be: CQRLOG would shift its scale
+        ((-5, 500), (-5, 210), (-5, 500, -5, 210)),
+        ((180, 540), (-10, 90), (0, 540, -10, 180)),  # below zero only if need be: CQRLOG would shift its scale
     ],
 )
 def test_dump_state_tells_what_the_box_accepts(
