@@ -9,7 +9,7 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from rotator.orbits.elements import Elements
 from rotator.store.priorities import Priorities
@@ -42,7 +42,9 @@ class TrackingThread:
         reader: FileReader,
         clock: SystemClock,
         priorities: Priorities,
+        steady_s: Callable[[], float] = time.monotonic,
     ) -> None:
+        """`steady_s`: the clock of the control loop."""
         self.tracker = tracker
         self.sky = sky
         self.priorities = priorities
@@ -51,6 +53,7 @@ class TrackingThread:
         self._planner = planner
         self._reader = reader
         self._clock = clock
+        self._steady_s = steady_s
         self._stopping = threading.Event()
         self._new_files = False
         self._refreshed_s = -math.inf
@@ -77,7 +80,7 @@ class TrackingThread:
 
     def _now(self) -> Now:
         # A simulated rotor may live at any time: then the clock counts as right.
-        return Now(time.time(), time.monotonic(), self._clock.error_s if self.clock_is_known() else 0.0)
+        return Now(time.time(), self._steady_s(), self._clock.error_s if self.clock_is_known() else 0.0)
 
     def known_elements(self) -> Sequence[Elements] | None:
         """From any thread: as `KnownSky.elements`."""
@@ -99,15 +102,15 @@ class TrackingThread:
                 self._failed(failure)
 
     def _turn(self) -> None:
-        if self._new_files or self.tracker.wants_new_files or time.monotonic() - self._refreshed_s >= REFRESH_S:
+        if self._new_files or self.tracker.wants_new_files or self._steady_s() - self._refreshed_s >= REFRESH_S:
             self._new_files = False
-            self._refreshed_s = time.monotonic()
+            self._refreshed_s = self._steady_s()
             if self.sky.refresh():
                 self._listener.know()
             self.tracker.read_new_files()
             self._tell()
         self._stopping.wait(LOOK_S)
-        self._clock.look(time.monotonic())
+        self._clock.look(self._steady_s())
         self._listener.step(self._now)
         self.tracker.step(self._now())
         self._follower.step(self._now())
