@@ -59,7 +59,7 @@ class CountedAxis:
         self._scale = 0
         self._doubt = ""
         """Why the stored count is not trusted. The counter's own reason is in its `trouble`."""
-        self._reported_s = 0.0
+        self._reported_s = float("-inf")
         self._moved = False
         """Whether the axis has moved since its last angle at rest was reported."""
         self._reported_lost = False
