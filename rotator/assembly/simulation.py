@@ -6,7 +6,9 @@ rotors themselves are in `rotator.assembly.kinds`.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +24,14 @@ from rotator.assembly.kinds import builder
 from rotator.assembly.settings import build_offsets
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.model import Config
+from rotator.store.json_file import number
+from rotator.store.whole import write_whole
 
 LIMIT_BEYOND_DEG = 1.0
 """Degrees beyond the end of the range: there a limit switch opens, before the stop. The low one of an axis that counts
 opens this far above `home_deg`."""
+PLACE_FILE = "simulated-rotor.json"
+"""Beside the state file."""
 AUTO = 2
 """The position AUTO of the simulated mode switch: 2 × MSB + LSB."""
 
@@ -134,6 +140,23 @@ def kept_world(config: Config) -> WorldState | None:
         return world_file.read(Path(config.sim.world))
     except (OSError, ValueError) as fault:
         raise HardwareError(f"sim.world: {fault}; remove the file, then the simulation begins anew") from fault
+
+
+def kept_place(path: Path) -> tuple[float, float]:
+    """The angles at which the last run has left a simulated rotor; 0 and 0: they are not known."""
+    try:
+        kept = json.loads(path.read_text(encoding="utf-8"))
+        return number(kept["azimuth_deg"], "azimuth", -360.0, 720.0), number(
+            kept["elevation_deg"], "elevation", -360.0, 720.0
+        )
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return 0.0, 0.0
+
+
+def keep_place(path: Path, rotor: SimRotor) -> None:
+    azimuth_deg, elevation_deg = rotor.rests()
+    with suppress(OSError):
+        write_whole(path, json.dumps({"azimuth_deg": round(azimuth_deg, 2), "elevation_deg": round(elevation_deg, 2)}))
 
 
 def simulated_rotor(

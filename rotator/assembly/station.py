@@ -23,7 +23,7 @@ from rotator.assembly.board import Board
 from rotator.assembly.kinds import builder
 from rotator.assembly.panel import panel_parts, panel_thread
 from rotator.assembly.rotors import Assembly
-from rotator.assembly.simulation import SimulatedStation
+from rotator.assembly.simulation import PLACE_FILE, SimulatedStation, keep_place, kept_place
 from rotator.config.model import Config
 from rotator.exchange.orders import Order
 from rotator.panel.thread import PanelParts, PanelThread
@@ -51,6 +51,7 @@ class Station:
 
     `add_alarm`: that of the simulated clock, where time is simulated; the rotor has begun then. In real time the
     caller starts the rotor. `counts`: the file that keeps counted axes; None: they begin where the simulated rotor is.
+    `place`: the file that keeps where a simulated rotor has come to rest; None: it is not kept.
     `world`: a simulated rotor that has outlived an earlier station, and goes on; None: it is made from the file.
     `watch` and `write`: where time is simulated, `watch` hears the leases of the relays in place of a sentinel, and
     `write` calls the functions that write `counts`.
@@ -75,6 +76,7 @@ class Station:
         *,
         add_alarm: AddAlarm | None = None,
         counts: Path | None = None,
+        place: Path | None = None,
         world: SimRotor | None = None,
         watch: LeaseWatch | None = None,
         write: Later = at_once,
@@ -90,6 +92,8 @@ class Station:
         with ExitStack() as opened:
             if self.world and config.sim.world and add_alarm is None:
                 opened.callback(self._keep_world(self.world, Path(config.sim.world), clock))
+            if self.world and place:
+                opened.callback(keep_place, place, self.world)
             self.board = Board(self.world, opened, clock, sleep, chip=config.relays.chip)
             self.lines = off_lines(config, self.board.chip)
             outputs = self._open_lines(opened, self.lines) if self.lines else None
@@ -178,9 +182,15 @@ class Station:
 
 
 def open_station(config: Config) -> Station:
-    """The hardware, in real time. Where the rotor outlives the program, axes that count start with the kept counts."""
-    kept = Path(config.state.path).with_name(counts_file.FILE_NAME) if config.keeps_files else None
-    return Station(config, time.monotonic, time.sleep, counts=kept)
+    """The hardware, in real time. Where the rotor outlives the program, axes that count start with the kept counts.
+
+    A simulated rotor begins where the last run has left it.
+    """
+    state = Path(config.state.path)
+    if config.keeps_files:
+        return Station(config, time.monotonic, time.sleep, counts=state.with_name(counts_file.FILE_NAME))
+    place = state.with_name(PLACE_FILE)
+    return Station(config, time.monotonic, time.sleep, kept_place(place), place=place)
 
 
 def fitted_panel(

@@ -25,7 +25,7 @@ class SimAxisTable(Table):
     pot_bow_deg: float = Field(0.0, ge=-30, le=30)
     """The pot's deviation from a straight line, at mid-travel."""
     start_deg: float | None = None
-    """The angle at the start. Left out: 0, and in a rehearsal the start of the pass."""
+    """The angle at the start. Left out: where it stood last, at first 0; in a rehearsal the start of the pass."""
 
 
 class SimElevation(SimAxisTable):
