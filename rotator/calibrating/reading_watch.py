@@ -11,7 +11,7 @@ from itertools import takewhile
 
 from hw.ports import Axis, Direction
 from rotator.calibrating.entries import Press
-from rotator.calibrating.readings import SHARES, Movement, ReadingUnit, movement
+from rotator.calibrating.readings import SHARES, Movement, ReadingUnit, movement, stands
 from rotator.exchange.status import AxisStatus, Status
 
 REST_READINGS = 10
@@ -92,16 +92,13 @@ class ReadingWatch:
         return self._end() if self._directions and settled else None
 
     def stands(self) -> bool:
-        """The motor has run for a while and the reading does not change."""
-        if not self.driven or not self._during:
+        """The motor has run for a while and the reading, which comes without a fault, does not change."""
+        if not self.driven or not self._during or self._failed:
             return False
         began_s, now_s = self._during[0][0], self._during[-1][0]
         lately = takewhile(lambda seen: now_s - seen[0] <= STANDING_S, reversed(self._during))
         latest = [raw for _, raw in lately][::-1]
-        half = len(latest) // 2
-        if now_s - began_s <= STANDING_S or half < REST_READINGS // 2:
-            return False
-        return movement(latest[:half], latest[half:], self._unit).stood
+        return now_s - began_s > STANDING_S and len(latest) >= REST_READINGS and stands(latest, self._unit)
 
     def _end(self) -> AxisMoved:
         directions, failed = self._directions, self._failed

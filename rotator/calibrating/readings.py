@@ -9,12 +9,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from statistics import fmean
+from statistics import fmean, median
 
 READINGS = 40
 """Readings averaged for one point: two seconds at 20 Hz; the mean has a sixth of one reading's noise."""
 BLOCK = 5
 """Readings averaged where a movement is examined."""
+MIDDLE = 0.674
+"""Half of all values of a normal distribution are less than this share of their rms."""
 SETBACK = 0.15
 """A movement may go back by this share of its length (gear play, noise). More means that something slips."""
 
@@ -27,8 +29,8 @@ class ReadingUnit:
     """More noise than this (rms): the sensor does not work."""
     least_move: float
     """A smaller change is no movement, however quiet the sensor."""
-    least_press: float
-    """A press that changes the reading by less has not moved the axis."""
+    least_back: float
+    """A smaller step back is play, however quiet the sensor."""
     least_turn: float
     """The change that a direction check needs."""
     digits: int
@@ -38,9 +40,9 @@ class ReadingUnit:
         return f"{reading:{'+' if signed else ''}.{self.digits}f}{self.symbol}"
 
 
-SHARES = ReadingUnit(noisy=0.004, least_move=0.0006, least_press=0.002, least_turn=0.01, digits=4)
+SHARES = ReadingUnit(noisy=0.004, least_move=0.0006, least_back=0.002, least_turn=0.01, digits=4)
 """0 to 1: a pot or a magnet. 0.01 is 5° of a 450° rotor."""
-DEGREES = ReadingUnit(noisy=2.0, least_move=0.3, least_press=0.5, least_turn=2.0, digits=1, symbol="°")
+DEGREES = ReadingUnit(noisy=2.0, least_move=0.3, least_back=0.5, least_turn=2.0, digits=1, symbol="°")
 
 
 class NotTrusted(ValueError):  # noqa: N818 - a judgement on a reading; the program has not failed
@@ -95,7 +97,7 @@ class Movement:
     @property
     def stood(self) -> bool:
         """The change is too small to tell from standing still."""
-        return abs(self.change) < max(self.unit.least_press, 4 * self.noise)
+        return abs(self.change) < max(self.unit.least_move, 4 * self.noise)
 
     def objection(self) -> str:
         """Why this is not a motor that turns a pot in one direction; empty: it is."""
@@ -104,10 +106,26 @@ class Movement:
                 f"the reading stands still at {self.unit.text(self.after)}: is the axis at its stop, does the motor "
                 "run, is the pot on its shaft?"
             )
-        if self.setback > max(SETBACK * abs(self.change), 4 * self.noise, self.unit.least_press):
+        if self.setback > max(SETBACK * abs(self.change), 4 * self.noise, self.unit.least_back):
             back = self.unit.text(self.setback)
             return f"the reading went back by {back} on the way: does the pot slip, is a contact bad?"
         return ""
+
+
+def stands(readings: Sequence[float], unit: ReadingUnit = SHARES) -> bool:
+    """Whether the second half of these readings is no further from the first than their noise explains.
+
+    The noise is that of the middle one of all steps: some readings that came late are one large step. False also where
+    the noise would hide a movement.
+    """
+    steps = [b - a for a, b in pairwise(readings)]
+    if min(steps) >= 0 or max(steps) <= 0:
+        return not any(steps)
+    half = len(readings) // 2
+    error = median(map(abs, steps)) / MIDDLE * math.sqrt(1 / half)
+    flicker = min(abs(step) for step in steps if step)
+    change = abs(fmean(readings[half:]) - fmean(readings[:half]))
+    return change <= max(error, flicker) and 3 * error <= unit.least_move
 
 
 def movement(before: Sequence[float], during: Sequence[float], unit: ReadingUnit = SHARES) -> Movement:
