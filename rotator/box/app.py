@@ -46,7 +46,8 @@ class App:
         """The box has started with all its links."""
         self.station = station or open_station(config)
         self._built = parts = build_parts(config, path, self.station, self._anew)
-        self.mount, self.loop, self.links, self.console = parts.mount, parts.loop, parts.links, parts.console
+        self.mount, self.loop, self.links = parts.mount, parts.loop, parts.links
+        self.console, self.typed = parts.console, parts.typed
         self._tasks: list[asyncio.Task[Any]] = []
         """The end of one of these is the end of the box."""
         self._side_tasks: list[asyncio.Task[Any]] = []

@@ -75,6 +75,8 @@ class Parts:
     links: list[RunningLink]
     console: Client
     """The box as its own keyboard sees it."""
+    typed: ConsoleSession
+    """What is typed there."""
     console_socket: ConsoleSocket
     monitor_socket: MonitorSocket
     pairings: Pairings | None
@@ -121,14 +123,13 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
     elements_server = build_elements_server(config, tracking.known_elements)
     numbers = itertools.count(1)
     monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
+
+    def session(box: Client) -> ConsoleSession:
+        return ConsoleSession(box, hands(station.world), tracking.tracker, pairings)
+
+    console = Client(loop, mount, Source(KEYBOARD))
     console_socket = ConsoleSocket(
-        console_path(monitor),
-        lambda: ConsoleSession(
-            Client(loop, mount, Source("console", next(numbers))),
-            hands(station.world),
-            tracking.tracker,
-            pairings,
-        ),
+        console_path(monitor), lambda: session(Client(loop, mount, Source("console", next(numbers))))
     )
     tap = Tap(datetime.now, lambda: loop.status)
     # While an axis is calibrated no program reaches the box.
@@ -170,7 +171,8 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         fetching=fetching,
         elements_server=elements_server,
         links=links,
-        console=Client(loop, mount, Source(KEYBOARD)),
+        console=console,
+        typed=session(console),
         console_socket=console_socket,
         monitor_socket=MonitorSocket(monitor, tap.listeners, tap.greeting),
         pairings=pairings,

@@ -42,26 +42,34 @@ def restored(path: Path | None) -> None:
 
 
 def start_anew(
-    path: Path | None, anew: Anew, make: Callable[[], App], run: Callable[[App], None], good: str | None
+    ran: Path | None, anew: Anew, make: Callable[[], App], run: Callable[[App], None], good: str | None
 ) -> None:
-    """Start the box again for as long as the page wants it. `good`: the text with which it has run.
+    """Start the box again for as long as the page wants it. `ran` and `good`: the file with which it has run,
+    and its text.
 
     Raises what ends a box that had started, and what keeps it from starting with the last good file.
     """
     while anew.take():
+        path = anew.file
         restored(path)
         text, app, anew.refused = text_of(path), None, ""
         try:
             app = make()
             run(app)
-            good = text
+            good, ran = text, path
         except (ConfigError, HardwareError, LinkError, CommandFailed) as fault:
-            if path is None or good is None or good == text or (app is not None and app.is_ready):
+            if path is None or (app is not None and app.is_ready):
                 raise
-            with WRITING:
-                if text is not None:
-                    write_whole(path.with_name(path.name + REFUSED), text)
-                write_whole(path, good)
+            if ran is None:
+                anew.file = None
+                log.error("%s cannot be used, and the box goes on without a file: %s", path.name, fault)
+            elif good is None or good == text:
+                raise
+            else:
+                with WRITING:
+                    if text is not None:
+                        write_whole(path.with_name(path.name + REFUSED), text)
+                    write_whole(path, good)
+                log.error("the new %s cannot be used, and the one before it is back: %s", path.name, fault)
             anew.refused = str(fault)
-            log.error("the new %s cannot be used, and the one before it is back: %s", path.name, fault)
             run(make())

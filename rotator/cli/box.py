@@ -17,6 +17,7 @@ from rotator.cli.reach import consoles, reach
 ANSWER_S = 5.0
 """The longest wait for an answer, in seconds."""
 OK, ERROR = "ok", "error: "
+ENDED = "the box has ended"
 AXES = ("azimuth", "elevation")
 
 BoxStatus = dict[str, Any]
@@ -62,7 +63,7 @@ class RunningBox:
             raise DoesNotAnswer(f"the box does not answer within {ANSWER_S:g} s") from None
         except OSError:
             pass
-        raise CommandFailed("the box has ended")
+        raise CommandFailed(ENDED)
 
     def status(self) -> BoxStatus:
         (line,) = self.order("status json")

@@ -29,7 +29,7 @@ from rotator.calibrating.sky_table import Residuals
 from rotator.cli.announced import announced
 from rotator.cli.calibrate_screens import LivePicture, PlainLines, wrapped
 from rotator.cli.failed import CommandFailed
-from rotator.cli.faults import parse_faults
+from rotator.cli.faults import list_faults, parse_faults
 from rotator.cli.reach import connected, consoles
 from rotator.cli.run import make_sure_of
 from rotator.cli.screen import log_to, stop_on_signals
@@ -47,6 +47,7 @@ from rotator.views.residual_svg import residual_svg
 
 def calibrate_axes(path: Path | None, faults: tuple[str, ...], task: str | None, *, plain: bool) -> int:
     """`task`: an axis, `north`, or None for both axes. The exit code: 0 when everything has been set up."""
+    list_faults(faults, path)
     config = load(path)
     _refuse_beside_running_box(config, path)
     _refuse_stopped(config, path)
@@ -68,6 +69,7 @@ def calibrate_sky(
 
     `receiver`: the address of its rigctld, or `sim`; None: a person finds the target. `svg`: the picture of the points.
     """
+    list_faults(faults, path)
     config = load(path)
     if config.rotor.hardware != "sim" and at_s is not None:
         raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")

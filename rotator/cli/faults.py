@@ -6,10 +6,15 @@ Knows the form `NAME@SECONDS`. The simulated rotor has the names, and does what 
 from __future__ import annotations
 
 import re
+import time
 from collections.abc import Collection
+from pathlib import Path
 from typing import Protocol
 
 import click
+
+from rotator.assembly.simulation import simulated_rotor
+from rotator.config.load import load
 
 _SECONDS = re.compile(r"[0-9]{1,6}(?:[.,][0-9]{0,6})?")
 
@@ -20,6 +25,14 @@ class FaultInjector(Protocol):
     @property
     def faults(self) -> Collection[str]:
         """The names of the faults that it can have."""
+
+
+def list_faults(texts: tuple[str, ...], path: Path | None) -> None:
+    """Where `list` is among the texts: print the names and end the program. It minds no box that runs."""
+    if "list" in texts:
+        config = load(path)
+        simulated = config.rotor.hardware == "sim"
+        parse_faults(texts, simulated_rotor(config, time.monotonic, None, (0.0, 0.0)) if simulated else None)
 
 
 def parse_faults(texts: tuple[str, ...], world: FaultInjector | None) -> list[tuple[float, str]]:

@@ -17,8 +17,8 @@ from pathlib import Path
 import click
 
 from rotator.cli.agree import agree
-from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands, typed
-from rotator.cli.failed import FAULTY, CommandFailed
+from rotator.cli.box import AXES, ENDED, BoxStatus, Refused, RunningBox, faults, stands, typed
+from rotator.cli.failed import FAULTY, CommandFailed, NoBox
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
 from rotator.control.refused import needs_no_homing
@@ -206,4 +206,7 @@ def _stop(path: Path | None) -> None:
     """On a connection of its own: an answer may be under way on the other. Raises CommandFailed."""
     # A second Ctrl-C must not interrupt the stop.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    stop_boxes(consoles(path), all_of_them=path is None)
+    try:
+        stop_boxes(consoles(path), all_of_them=path is None)
+    except NoBox:
+        raise CommandFailed(ENDED) from None

@@ -202,9 +202,10 @@ def _asking(box: socket.socket, asked: Asked, deadline_s: float) -> Iterator[str
     rest = b""
     while (left_s := deadline_s - time.monotonic()) > 0:
         ready, _, _ = select.select([box], [], [], left_s)
-        data = box.recv(65536) if ready else b""
-        if not data:
+        if not ready:
             return
+        if not (data := box.recv(65536)):
+            raise SetupError("the box has ended: start it, then type the line for Hamlib on the PC")
         *lines, rest = (rest + data).split(b"\n")
         for line in lines:
             match parse(line.decode("ascii", "replace")):

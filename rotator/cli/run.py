@@ -25,7 +25,7 @@ from rotator.box.app import App
 from rotator.cli.anew import restored, start_anew, text_of
 from rotator.cli.announced import announced, boxes
 from rotator.cli.failed import CommandFailed
-from rotator.cli.faults import parse_faults
+from rotator.cli.faults import list_faults, parse_faults
 from rotator.cli.foreground import in_front
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.reach import connected
@@ -47,12 +47,14 @@ PAGE_LOOKS = 30
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
+    list_faults(faults, path)
     use_one_heap()
     allow_enough()
     anew = Anew()
+    anew.file = path
     restored(path)
     good = text_of(path)
-    app = _app(path, anew)
+    app = _app(anew)
     recent = LogRows()
     screen, errors = Output(sys.stdout, LINES if plain else PICTURES), Output(sys.stderr)
     # Before a thread of the app can log above the picture.
@@ -61,22 +63,22 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
         chosen = parse_faults(faults, app.station.world)
 
         def run(app: App) -> None:
-            with nullcontext() if runtime_folder(os.environ) else announced(_monitor(app.config), path):
+            with nullcontext() if runtime_folder(os.environ) else announced(_monitor(app.config), anew.file):
                 asyncio.run(run_app(app, chosen, screen, None if plain else recent, anew))
             # The faults of the command line have begun, and a person has seen them.
             chosen.clear()
 
         run(app)
-        start_anew(path, anew, lambda: _app(path, anew), run, good)
+        start_anew(path, anew, lambda: _app(anew), run, good)
     finally:
         screen.close()
         errors.close()
 
 
-def _app(path: Path | None, anew: Anew) -> App:
-    config = load(path)
-    make_sure_of(_monitor(config), path)
-    return App(config, path, anew=anew)
+def _app(anew: Anew) -> App:
+    config = load(anew.file)
+    make_sure_of(_monitor(config), anew.file)
+    return App(config, anew.file, anew=anew)
 
 
 def _monitor(config: Config) -> Path:
@@ -145,7 +147,7 @@ def _rows(text: str) -> list[str]:
 async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
     """Lines, and at a terminal the same keys as in the picture."""
     wires = app.wires
-    keys = RunKeys(app.console)
+    keys = RunKeys(app.console, app.typed)
     printed = ""
 
     def greeting() -> list[str]:
@@ -173,7 +175,7 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
 
 async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRows) -> None:
     wires = app.wires
-    keys, trail, plain = RunKeys(app.console), Trail(), has_ascii_only(screen)
+    keys, trail, plain = RunKeys(app.console, app.typed), Trail(), has_ascii_only(screen)
 
     def glass() -> tuple[str, ...]:
         """The rows of the display: read from a simulated one. A real one cannot be read, so the rows sent to it."""

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from rotator.exchange.orders import Stop
 from rotator.exchange.status import Status
+from rotator.protocols.console import VERBS
 from rotator.protocols.console_session import ERROR, ConsoleSession
 from rotator.protocols.session import Box
 
 WORDS = ("park", "resume")
 """Words that need Enter."""
+USAGE = {verb.text: verb.usage for verb in VERBS if verb.operands} | {"rotator": "rotator ..."}
+"""Commands of the console with more words behind them: there a blank and a `q` are letters."""
 STOP_WORD = "stop"
 """This word needs no Enter: its last letter stops."""
 STOP, QUIT = " ", "q"
@@ -20,7 +23,7 @@ STAYS = "a fault stays until repaired"
 AGAIN = "The antenna is on its way. q again to quit"
 NEXT = "Enter does it"
 """What is said of a word that is whole, and of a beginning of `stop`."""
-CHOICE = f"Type {', '.join((STOP_WORD, *WORDS[:-1]))} or {WORDS[-1]}"
+CHOICE = f"Type {', '.join((STOP_WORD, *WORDS))}, or a command such as point 180 45"
 NO_WORD = "no such word: Enter clears it"
 ENTER, BACK, ESCAPE = "\r\n", "\x7f\b", "\x1b"
 
@@ -32,10 +35,10 @@ class RunKeys:
     another word, which would turn the antenna.
     """
 
-    def __init__(self, box: Box) -> None:
+    def __init__(self, box: Box, session: ConsoleSession | None = None) -> None:
         self.line = ""
         self._box = box
-        self._session = ConsoleSession(box)
+        self._session = session or ConsoleSession(box)
         self._typed = ""
         self._escape = ""
         """The beginning of an arrow's characters: Esc, then `[` or `O`."""
@@ -45,7 +48,9 @@ class RunKeys:
     def key(self, pressed: str) -> bool:
         """Take one character. True: the box is to end."""
         asked, self._asked = self._asked, False
-        if pressed == STOP:
+        if _is_letter(pressed, self._typed):
+            self._letter(pressed)
+        elif pressed == STOP:
             self._stop()
         elif pressed == ESCAPE or self._escape:
             return self._swallow(pressed)
@@ -76,14 +81,14 @@ class RunKeys:
         self._show("", note)
 
     def _enter(self) -> None:
-        word = self._typed
-        if word in WORDS:
-            answer = self._session.receive(f"{word}\n".encode())[0].decode().strip()
-            refused = answer.removeprefix(ERROR) if answer.startswith(ERROR) else ""
+        word = self._typed.removeprefix("rotator ").strip()
+        if word in WORDS or word.partition(" ")[0] in USAGE:
+            *told, last = self._session.receive(f"{word}\n".encode())[0].decode().splitlines()
+            refused = last.removeprefix(ERROR) if last.startswith(ERROR) else ""
             stays = STAYS if word == "resume" and self._box.status().faults else ""
-            self._show("", f"{word}: {refused or stays or 'done'}")
-        elif word.startswith(STOP_WORD[0]):
-            # `s`, or `stpo`: no other word begins so.
+            self._show("", f"{word}: {refused or stays or '; '.join(told) or 'done'}")
+        elif self._typed.startswith(STOP_WORD[0]):
+            # `s`, or `stpo`: but for `status` no other word begins so.
             self._stop(f"{STOP_WORD}: done")
         elif word:
             self._show("", f"{_to_first_slip(word)}: no such word. {CHOICE}")
@@ -111,16 +116,23 @@ class RunKeys:
         return False
 
 
+def _is_letter(key: str, typed: str) -> bool:
+    """Of a blank or `q`: whether it goes on a command, as in `point 180 45`. A second blank stops, as anywhere else."""
+    first, blank, _ = typed.partition(" ")
+    return first in USAGE and ((key == STOP and not typed.endswith(" ")) or (key == QUIT and bool(blank)))
+
+
 def _begins_a_word(typed: str) -> bool:
-    return any(word.startswith(typed) for word in (*WORDS, STOP_WORD))
+    first, blank, _ = typed.partition(" ")
+    return first in USAGE if blank else any(word.startswith(typed) for word in (*WORDS, STOP_WORD, *USAGE))
 
 
 def _next(typed: str) -> str:
     """What the person may do next."""
-    if typed in WORDS or STOP_WORD.startswith(typed):
+    if typed in WORDS or STOP_WORD.startswith(typed) or (" " in typed and _begins_a_word(typed)):
         return NEXT
-    word = next((word for word in WORDS if word.startswith(typed)), None)
-    return NO_WORD if word is None else f"{word}, then Enter"
+    word = next((word for word in (*WORDS, *USAGE) if word.startswith(typed)), None)
+    return NO_WORD if word is None else f"{USAGE.get(word, word)}, then Enter"
 
 
 def _to_first_slip(typed: str) -> str:

@@ -56,14 +56,14 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
 
 @click.command(
     name="config",
-    epilog=examples("rotator config --ask", "rotator config --list", "rotator config g5500 > station.toml"),
+    epilog=examples("rotator config --ask", "rotator config --list", "rotator config g5500 --to station.toml"),
 )
 @click.argument("name", required=False, metavar="[NAME]")
 @click.option("--list", "listed", is_flag=True, help="List the shipped configurations.")
 @click.option("--ask", "asked", is_flag=True, help="Ask a few questions, and write your file.")
-@click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="--ask: the file to write.")
+@click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="The file to write.")
 def show_config(name: str | None, listed: bool, asked: bool, to: Path | None) -> None:
-    """Print a shipped configuration, or ask for your own.
+    """Print a shipped configuration, write it to a file, or ask for your own.
 
     NAME is one of those that --list shows; without NAME it is the simulated rotor's.
     """
@@ -76,8 +76,13 @@ def show_config(name: str | None, listed: bool, asked: bool, to: Path | None) ->
         shipped(name)
         ask(name, to)
         return
+    if listed and to is not None:
+        raise click.UsageError("--list writes no file: rotator config NAME --to FILE")
     if to is not None:
-        raise click.UsageError("--to goes with --ask; without it: rotator config NAME > FILE")
+        from rotator.cli.ask import write_shipped
+
+        write_shipped(name, to)
+        return
     if listed:
         for each in (SIMULATED, *profiles()):
             click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")

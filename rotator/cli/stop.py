@@ -74,19 +74,20 @@ def _stop(place: Path) -> bool:
     with box:
         answer = _answer(box)
     if answer != OK:
-        reason = answer.decode("utf-8", "replace").strip() or f"it does not answer within {ANSWER_S:g} s"
-        raise CommandFailed(f"the box at {place}: {reason}")
+        raise CommandFailed(f"the box at {place}: {answer.decode('utf-8', 'replace').strip()}")
     return True
 
 
 def _answer(box: socket.socket) -> bytes:
-    """Up to its newline; empty: none came."""
+    """Up to its newline, or why none came."""
     answer = b""
     try:
         box.settimeout(ANSWER_S)
         box.sendall(STOP)
         while not answer.endswith(b"\n") and (received := box.recv(4096)):
             answer += received
+    except TimeoutError:
+        return f"it does not answer within {ANSWER_S:g} s".encode()
     except OSError:
-        return b""
-    return answer
+        pass
+    return answer or b"it has ended"

@@ -1,13 +1,14 @@
 """The request that the box ends and starts again with its file, and what holds the antenna meanwhile.
 
-Knows the latched stop and the person's hold that go on. Does not know the file: `rotator.cli.anew` starts
-the box again, and puts the last good file back where it cannot.
+Knows the latched stop and the person's hold that go on, and which file is next. Does not know what is in it:
+`rotator.cli.anew` starts the box again, and puts the last good file back where it cannot.
 """
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from pathlib import Path
 
 from hw.ports import Axis
 from rotator.exchange.sources import Source
@@ -20,6 +21,8 @@ class Anew:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._asked = False
+        self.file: Path | None = None
+        """The configuration's file; None: the box runs without one. The page may have one made for the next start."""
         self.on_asked: Callable[[], None] = lambda: None
         self.holder: Source | None = None
         """The person who held the antenna. After the new start no other program may move it either."""

@@ -16,8 +16,9 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.config.edit import NoChangeError
-from rotator.config.load import ConfigError
+from rotator.config.load import SIMULATED_FILE, ConfigError, load, shipped
 from rotator.config.proposal import OverwritesError, Proposal, Settings, propose, settings, write
+from rotator.config.writing import write_new
 from rotator.exchange.status import Status
 from rotator.protocols.methods import WrongValuesError
 from rotator.runtime.anew import Anew
@@ -25,11 +26,13 @@ from rotator.setup.plan import SetupError
 from rotator.web.entrance import RefusedError
 from rotator.web.schema import TEXT, YES, object_of, the
 
+OWN = Path("rotator.toml")
+"""The file that a box without one gets, in the folder where it was started."""
 ANSWERED_S = 0.3
 """Seconds until the answer is sent. Then the box ends, and the page with it."""
 NO_FILE = (
-    "the box runs without a file, so there is nothing to change: `rotator config --to rotator.toml` writes one, "
-    "`rotator run --config rotator.toml` runs it"
+    "the box runs without a file, so there is nothing to change: make one on the page, in Setup; or "
+    "`rotator config --to rotator.toml` writes one, `rotator run --config rotator.toml` runs it"
 )
 MOVES = "the antenna moves, and the new start stops it: send stop = true"
 STOP = {"stop": the("true: though the antenna moves, which stops", YES)}
@@ -54,8 +57,18 @@ class BoxFile:
         return self.file
 
     async def settings(self) -> Settings:
+        """Of a box without a file: those of the shipped one, with which it runs."""
         with _refusing():
-            return await asyncio.to_thread(settings, self.path)
+            return await asyncio.to_thread(settings, self.file or SIMULATED_FILE)
+
+    async def make(self) -> Path:
+        """The box is to have a file after its new start: the one that is there already, else the shipped one."""
+        if self.file is not None:
+            raise RefusedError(f"the box has a file: {self.file}")
+        with _refusing():
+            await asyncio.to_thread(_made, OWN)
+        self.anew.file = OWN.absolute()
+        return self.anew.file
 
     async def propose(self, begun: str, make: Callable[[str], str]) -> Proposal:
         """`begun`: digest of the text that the change starts from. `make` returns the new text for it."""
@@ -75,6 +88,14 @@ class BoxFile:
         """Start the box again as soon as this answer is sent. `sets_up`: an axis to calibrate then."""
         asyncio.get_running_loop().call_later(ANSWERED_S, lambda: self.anew.ask(self.status(), sets_up))
         return {"ok": True, "run": self.run}
+
+
+def _made(path: Path) -> None:
+    """Write the file, or check the one that is there. Raises OSError, ConfigError."""
+    try:
+        write_new(path, shipped())
+    except FileExistsError:
+        load(path)
 
 
 def stop_of(others: Mapping[str, object]) -> bool:

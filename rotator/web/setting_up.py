@@ -132,12 +132,13 @@ class SettingUpApi:
                 axis, stops = Axis(name), stop_of(others)
             case _:
                 raise WrongValuesError('send {"axis": "azimuth"}, or elevation')
+        file = self._file.path
         try:
             axis_guide(await self._config(), axis)
         except HardwareError as reason:
             raise RefusedError(str(reason)) from None
         self._file.may_stop(stops=stops)
-        log.warning("page: %s calibrates the %s: the box starts anew for that", who.name, name)
+        log.warning("page: %s calibrates the %s of %s: the box starts anew for that", who.name, name, file)
         return web.json_response(self._file.begin_anew(axis))
 
     async def _guide(self, request: web.Request) -> web.StreamResponse:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 from collections.abc import Callable, Sequence
 from datetime import date
 from functools import partial
@@ -21,7 +22,7 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.setup.answered import fresh
 from rotator.setup.network import open_to
 from rotator.setup.questions import network
-from rotator.web.box_file import ANEW, STOP, BoxFile, stop_of
+from rotator.web.box_file import ANEW, OWN, STOP, BoxFile, stop_of
 from rotator.web.entrance import Entrance, computed, values_of
 from rotator.web.route import COMPUTING, PAIRED, Route, answered, get, post, refusals
 from rotator.web.schema import (
@@ -66,7 +67,9 @@ _MISTAKE = object_of({"text": TEXT, "places": the("the keys that it is about", l
 _SHOWN = {"diff": the("the lines that change", list_of(TEXT)), "mistakes": list_of(_MISTAKE)}
 _SETTINGS = object_of(
     {
-        "file": the("its path", TEXT),
+        "file": the("its path; empty: the box runs without one, as the shipped file says", TEXT),
+        "own": the("the file that /api/settings/file makes for a box without one", TEXT),
+        "there": the("that file is there already, and would be used", YES),
         "run": the("after each start another one", TEXT),
         "digest": the("of its text", TEXT),
         "values": the("what it says", {"type": "object"}),
@@ -104,7 +107,7 @@ class SettingsApi:
         self._form: asyncio.Task[list[dict[str, Any]]] | None = None
 
     def routes(self) -> Sequence[Route]:
-        restart = "Stop, and start anew"
+        restart, made = "Stop, and start anew", "Make a file for a box that runs without one, and start anew with it"
         checked, written = (
             "What a change of the file would be, and its mistakes",
             "Write a change, and start anew with it",
@@ -118,6 +121,7 @@ class SettingsApi:
             get("/api/settings/form", self._forms, keys, access=PAIRED, more=COMPUTING),
             post("/api/settings/check", self._check, checked, answer=object_of(_SHOWN), **sent),
             post("/api/settings/write", self._write, written, answer=ANEW, more=wrong, **sent),
+            post("/api/settings/file", self._make, made, body_of({}, STOP, example={"stop": True}), answer=ANEW),
             post("/api/restart", self._restart, restart, body_of({}, STOP, example={"stop": True}), answer=ANEW),
         )
 
@@ -125,7 +129,9 @@ class SettingsApi:
         self._entrance.must_be_paired(request)
         found = await self._file.settings()
         settings = {
-            "file": str(self._file.path),
+            "file": str(self._file.file or ""),
+            "own": str(OWN.absolute()),
+            "there": os.path.lexists(OWN),
             "run": self._file.run,
             "digest": found.digest,
             "values": found.values,
@@ -154,6 +160,13 @@ class SettingsApi:
         self._file.may_stop(stops=stops)
         await self._file.write(proposal)
         log.warning("page: %s has changed %s: the box starts anew with it", who.name, self._file.path)
+        return web.json_response(self._file.begin_anew())
+
+    async def _make(self, request: web.Request) -> web.StreamResponse:
+        who = self._entrance.must_be_paired(request)
+        self._file.may_stop(stops=stop_of(await values_of(request)))
+        file = await self._file.make()
+        log.warning("page: %s gives the box a file, %s: it starts anew with it", who.name, file)
         return web.json_response(self._file.begin_anew())
 
     async def _restart(self, request: web.Request) -> web.StreamResponse:

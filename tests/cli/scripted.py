@@ -49,6 +49,8 @@ class ScriptedConsole:
         self.ordered = threading.Event()
         self.states: list[str] = []
         """What is tracked, in turn, as the console tells it."""
+        self.ends_after: int | None = None
+        """The box ends after so many answers; None: it stays."""
         self._statuses = statuses
         self._server = socket.socket(socket.AF_UNIX)
         self._server.bind(str(path))
@@ -56,7 +58,8 @@ class ScriptedConsole:
         threading.Thread(target=self._serve, daemon=True).start()
 
     def close(self) -> None:
-        self._server.shutdown(socket.SHUT_RDWR)
+        with suppress(OSError):  # it has ended before
+            self._server.shutdown(socket.SHUT_RDWR)
         self._server.close()
 
     def _serve(self) -> None:
@@ -70,6 +73,11 @@ class ScriptedConsole:
     def _talk(self, client: socket.socket) -> None:
         with suppress(OSError), client, client.makefile("rw", encoding="utf-8") as lines:
             for line in lines:
+                if self.ends_after is not None:
+                    self.ends_after -= 1
+                    if self.ends_after < 0:
+                        self.close()
+                        return
                 lines.write(self._answer(line.strip()))
                 lines.flush()
 

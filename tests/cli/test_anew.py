@@ -8,10 +8,15 @@ import socket
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from rotator.cli.anew import start_anew
+from rotator.exchange.status import AxisStatus, Status
+from rotator.links.wire import LinkError
+from rotator.runtime.anew import Anew
 from tests.boxes import free_port
 
 Start = Callable[..., Any]
@@ -98,3 +103,23 @@ def test_a_stop_stays_in_force(box: tuple[Any, Page], send: Callable[[bytes], No
     assert page.ask("status")["stopped_by"]
     assert not page.ask("status")["moving"]
     assert running.stop() == 0
+
+
+def test_where_a_file_that_the_page_has_made_cannot_be_used_the_box_goes_on_without_one(tmp_path: Path) -> None:
+    """Its page's port is taken: the person is not left without a box."""
+    made, anew = tmp_path / "rotator.toml", Anew()
+    made.write_text("mine\n")
+    ran: list[Path | None] = []
+
+    def run(_app: object) -> None:
+        ran.append(anew.file)
+        if anew.file is not None:
+            raise LinkError("127.0.0.1:8232: the page cannot listen there")
+
+    anew.ask(Status(0.0, AxisStatus(0.0, 450.0, 0.0), AxisStatus(0.0, 180.0, 0.0)))
+    anew.file = made
+    box: Any = SimpleNamespace(is_ready=False)
+    start_anew(None, anew, lambda: box, run, None)
+    assert ran == [made, None]
+    assert anew.refused == "127.0.0.1:8232: the page cannot listen there"
+    assert made.read_text() == "mine\n"

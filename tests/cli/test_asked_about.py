@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from hw.ports import Axis
 from rotator.exchange.faults import Fault, FaultKind, Missing
 from rotator.exchange.status import AxisStatus, Status
-from tests.cli.scripted import Rotator, Start, StartInTerminal, counted, pointed, said, why
+from tests.cli.scripted import COMMAND, Rotator, Start, StartInTerminal, counted, pointed, said, why
 
 
 def test_letting_go_is_asked_about_first(
@@ -127,3 +130,24 @@ def test_a_fault_whose_cause_is_still_there_is_not_called_mended(
     scripted(pointed(AxisStatus(0.0, 450.0, 120.0, fault=fault)))
     done = rotator_here("resume", "--config", config)
     assert why(done, 3) == f"rotator: the cause is still there:\n         {fault}\n"
+
+
+@pytest.mark.parametrize("answers", range(5))
+@pytest.mark.parametrize(
+    "words",
+    [
+        "where", "where --json", "point 180 45", "jog cw 1", "park", "home azimuth --yes", "track iss", "track",
+        "confirm azimuth 10", "resume", "let-go --yes", "tell status", "stop", "pair --list",
+    ],
+)  # fmt: skip
+def test_of_a_box_that_ends_meanwhile_it_is_said_that_it_has_ended(
+    scripted: Any, rotator_here: Rotator, config: Path, words: str, answers: int
+) -> None:
+    console = scripted(counted(20, turns=True), counted(20, turns=True, by=COMMAND))
+    console.states = ["planning"] * 9
+    console.ends_after = answers
+    done = rotator_here(*words.split(), "--config", config)
+    if console.ends_after >= 0:
+        return  # it asked no more than that
+    assert re.search(r"\b(the box|it) has ended\b", why(done))
+    assert "no box runs" not in done.stderr

@@ -88,10 +88,10 @@ def test_a_command_for_a_running_box_loads_no_box(console: Path, tmp_path: Path,
 
 
 def test_a_start_of_the_box_loads_no_library_that_writes_toml(tmp_path: Path) -> None:
-    """`--fault list` ends a start when the whole box has been built."""
+    """A fault that there is not ends a start when the whole box has been built."""
     station = tmp_path / "station.toml"
     station.write_text('[rotor]\nhardware = "sim"\n')
-    found = loaded(tmp_path, "run", "--config", str(station), "--fault", "list")
+    found = loaded(tmp_path, "run", "--config", str(station), "--fault", "gremlins")
     assert "rotator.box.app" in found
     assert "tomlkit" not in found
 

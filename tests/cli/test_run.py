@@ -171,8 +171,14 @@ def test_a_second_box_on_the_same_terminal(start: Start, rotator: Rotator, confi
 # --- faults by name
 
 
-def test_the_faults_there_are(rotator: Rotator, config: Path) -> None:
-    done = rotator("run", "--config", config, "--fault", "list")
+@pytest.mark.parametrize("command", ["run", "calibrate"])
+def test_the_faults_there_are_also_beside_a_running_box(
+    start: Start, rotator: Rotator, config: Path, command: str
+) -> None:
+    box = start("run", "--config", config)
+    box.until("elevation 0°\n")
+    done = rotator(command, "--config", config, "--fault", "list")
+    assert box.stop() == 0
     names = done.stdout.splitlines()
     assert done.returncode == 0
     assert names == sorted(names)

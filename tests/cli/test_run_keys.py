@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hw.ports import Axis, Direction
 from rotator.cli.run_keys import RunKeys
-from rotator.exchange.orders import Aim, Park, Release, Stop
+from rotator.exchange.orders import Aim, Jog, Order, Park, Release, Stop
 from tests.protocols.conftest import BenchBox
 
 ANY_KEY = [chr(code) for code in range(256)]
@@ -89,7 +90,7 @@ def test_a_slip_is_told_once_whatever_follows(bench: BenchBox) -> None:
         told.add(keys.line)
     assert told == {"> pak_  no such word: Enter clears it"}
     keys.key("\r")
-    assert keys.line == "pak: no such word. Type stop, park or resume"
+    assert keys.line == "pak: no such word. Type stop, park, resume, or a command such as point 180 45"
     assert bench.orders == []
 
 
@@ -103,7 +104,7 @@ def test_what_is_typed_shows(bench: BenchBox) -> None:
     assert typed(bench, "res").line == "> res_  resume, then Enter"
     assert typed(bench, "sto").line == "> sto_  Enter does it"
     assert typed(bench, "pa5").line == "> pa5_  no such word: Enter clears it"
-    assert typed(bench, "pa\r").line == "pa: no such word. Type stop, park or resume"
+    assert typed(bench, "pa\r").line == "pa: no such word. Type stop, park, resume, or a command such as point 180 45"
     assert typed(bench, "pa\x1b").line == ""
     assert typed(bench, "p\x7f").line == ""
 
@@ -134,6 +135,45 @@ def test_a_release_does_not_say_that_a_fault_is_gone() -> None:
     bench = BenchBox(blind=True)
     bench.wait(1.0)
     assert typed(bench, "resume\r").line == "resume: a fault stays until repaired"
+
+
+@pytest.mark.parametrize(
+    ("text", "order"),
+    [
+        ("point 180 45", Aim(180.0, 45.0)),
+        ("Rotator POINT 180,5 45", Aim(180.5, 45.0)),
+        ("jog cw 0.5", Jog(Axis.AZIMUTH, Direction.PLUS, 0.5)),
+        ("rotator park", Park(storm=True)),
+    ],
+)
+def test_a_command_is_typed_here_as_in_another_terminal(bench: BenchBox, text: str, order: Order) -> None:
+    assert typed(bench, text).line == f"> {text.lower()}_  Enter does it"
+    assert bench.orders == []
+    assert typed(bench, f"{text}\r").line.endswith(": done")
+    assert bench.orders == [order]
+
+
+@pytest.mark.parametrize(
+    "text", ["point 180", "point 900 45", "point x", "jog round 1", "track iss", "track qo-100", "home azimuth"]
+)
+def test_a_command_that_is_none_says_why_and_stops_nothing(bench: BenchBox, text: str) -> None:
+    told = typed(bench, f"{text}\r").line
+    assert told.startswith(f"{text}: ")
+    assert len(told) > len(text) + 10
+    assert bench.orders == []
+
+
+@pytest.mark.parametrize("text", ["status", "status json", "rotator where", "where", "pair", "track", "help", "let-go"])
+def test_a_question_stops_nothing_either(bench: BenchBox, text: str) -> None:
+    assert typed(bench, f"{text}\r").line
+    assert bench.orders == []
+
+
+@pytest.mark.parametrize("before", ["point", "point 180", "track iss", "rotator", "jog cw"])
+def test_a_second_blank_stops(bench: BenchBox, before: str) -> None:
+    keys = typed(bench, f"{before}  ")
+    assert bench.orders == [Stop(latch=True)]
+    assert keys.line == ""
 
 
 def test_q_quits_a_box_at_rest_at_any_moment(bench: BenchBox) -> None:

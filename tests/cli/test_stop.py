@@ -94,7 +94,7 @@ def test_a_damaged_file_goes_the_long_way(tmp_path: Path, text: str) -> None:
     assert not stop.stop_at_once(["--config", str(config)])
 
 
-@pytest.mark.parametrize(("answer", "told"), [(b"error: not now\n", "error: not now"), (b"", "does not answer")])
+@pytest.mark.parametrize(("answer", "told"), [(b"error: not now\n", "error: not now"), (b"", "it has ended")])
 def test_a_box_that_does_not_obey_is_told_in_capitals(tmp_path: Path, answer: bytes, told: str) -> None:
     config = tmp_path / "rotator.toml"
     config.write_text(f'[monitor]\npath = "{tmp_path}/monitor"\n')

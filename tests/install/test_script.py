@@ -23,7 +23,7 @@ PROJECT = Path(__file__).parent.parent.parent
 
 def test_shellcheck(need_program: Callable[[str, str], str]) -> None:
     shellcheck = need_program("shellcheck", "shellcheck")
-    scripts = ["install.sh", "install/version.sh", "install/first-config.sh", ".ci/run"]
+    scripts = ["install.sh", "install/version.sh", "install/first-config.sh", ".ci/run", ".ci/up_for"]
     scripts += [f"install/deb/{name}" for name in SCRIPTS]
     done = subprocess.run([shellcheck, "-x", *scripts], cwd=PROJECT, capture_output=True, text=True, check=False)
     assert done.stdout == ""

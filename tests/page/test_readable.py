@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -24,6 +25,15 @@ horizon = [[0, 5], [60, 12], [180, 3], [250, 15]]
 name = "chimney"
 azimuth_deg = [290, 320]
 elevation_deg = [0, 35]
+"""
+
+
+ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
+SEES_SKY = f"""{BUSY}
+[sky]
+elements = ["{ELEMENTS}"]
+[[sky.follow]]
+name = "moon"
 """
 
 
@@ -74,6 +84,52 @@ def test_nothing_is_wider_than_the_screen_and_stop_is_on_it(start: Start, visit:
         assert stop is not None
         assert stop["width"] == width
         assert stop["y"] + stop["height"] == height
+
+
+# By the letters of the view's link. Of the Sky the table of passes is waited for, of Setup every step is opened.
+VIEWS = {"Antenna": ".board", "Sky": ".passes td", "Setup": ".step", "Help": ".doctor li", "Log": ".log td"}
+BEYOND = """() => {
+    const width = document.documentElement.clientWidth, seen = [];
+    for (const one of document.querySelectorAll("body *:not(svg *)")) {
+        const { left, right, width: own } = one.getBoundingClientRect(), style = getComputedStyle(one);
+        if (!own || style.clipPath !== "none" || one.parentElement.closest("pre, .strip")) continue;
+        const cut = one.matches("button, a, dd, dt, h1, h2, h3, p, td") && style.display !== "inline"
+            && one.scrollWidth > one.clientWidth + 1;
+        if (right > width + 1 || left < -1 || cut) seen.push(`${one.tagName}.${one.className}: ${one.textContent}`);
+    }
+    return seen;
+}"""
+"""What is beyond the window's sides, or cut at its own."""
+
+
+@pytest.mark.parametrize("percent", [100, 130, 200])
+@pytest.mark.parametrize(("width", "height"), [(320, 568), (390, 844)])
+def test_larger_text_leaves_stop_on_the_screen(
+    start: Start, visit: Visit, width: int, height: int, percent: int
+) -> None:
+    """As a person sets it in the phone; with a fault, which has the longest texts."""
+    station = start(SEES_SKY, "--fault", "azimuth-pot-open@1")
+    page = visit(station, viewport={"width": width, "height": height}, is_mobile=True, has_touch=True)
+    pair(page)
+    headline(page, "FAULT")
+    page.evaluate(f"document.documentElement.style.fontSize = '{percent}%'")
+    for view, shows in VIEWS.items():
+        page.get_by_role("link", name=view, exact=True).first.evaluate("link => link.click()")
+        page.locator(shows).first.wait_for()
+        for step in page.locator(".step > summary").all():
+            step.evaluate("summary => summary.click()")
+        assert page.evaluate(BEYOND) == [], view
+        stop = page.locator("#stop").bounding_box()
+        assert stop is not None
+        assert (stop["x"], stop["width"], round(stop["y"] + stop["height"])) == (0, width, height), view
+        assert page.evaluate("visualViewport.width") == width, view
+
+
+def test_the_size_of_text_is_the_browsers_own(start: Start, visit: Visit) -> None:
+    page = visit(start())
+    rules = "[...document.styleSheets].flatMap((each) => [...each.cssRules])"
+    sizes = page.evaluate(f"{rules}.filter((each) => each.selectorText === 'html').map((each) => each.style.fontSize)")
+    assert sizes[0] == "100%"
 
 
 def test_the_keyboard_alone_points_and_turns(start: Start, visit: Visit) -> None:

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import json
+import re
+import signal
+import socket
+import subprocess
+import sys
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.page.conftest import Station, pair, violations
+from rotator.assembly.simulation import PLACE_FILE
+from rotator.config.load import shipped
+from tests.page.conftest import START_S, STATIONS, Station, pair, until_it_answers, violations
 from tests.page.test_dashboard import PHONE, STATION, waits_for
 
 if TYPE_CHECKING:
@@ -53,6 +61,9 @@ def test_a_setting_is_changed_in_the_file_and_its_remark_stays(
     page.get_by_label("park_azimuth_deg").fill("95")
     page.get_by_role("button", name="See the change").click()
     page.locator(".diff .new", has_text="+park_azimuth_deg = 95   # away from the trees").wait_for()
+    rows = page.locator(".diff span").evaluate_all("rows => rows.map((row) => row.getBoundingClientRect().top)")
+    assert len(rows) > 3
+    assert rows == sorted(set(rows)), "each on a line of its own"
     write_it(page)
     assert "park_azimuth_deg = 95   # away from the trees" in (station.folder / "r.toml").read_text()
     assert "park_azimuth_deg = 90 " in (station.folder / "r.toml.bak").read_text()
@@ -74,6 +85,52 @@ def test_a_wrong_value_is_refused_beside_its_field(start: Start, visit: Visit) -
     assert page.get_by_label("park_azimuth_deg").get_attribute("aria-invalid") == "true"
     assert page.get_by_role("button", name="Write it").count() == 0
     assert (station.folder / "r.toml").read_text() == before
+
+
+STANDS = re.compile(r"^(119|120)\.\d°")
+
+
+@pytest.fixture
+def without_file(tmp_path: Path, usual_port: None) -> Iterator[Station]:
+    """`rotator run` without a file, as on the second evening: the antenna stands where the first one has left it."""
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / PLACE_FILE).write_text('{"azimuth_deg": 120, "elevation_deg": 10}')
+    with socket.socket() as other:
+        if other.connect_ex(("127.0.0.1", 8232)) == 0:
+            pytest.skip("another box has the usual port of the page")
+    with (tmp_path / "log").open("wb") as log:
+        command = (sys.executable, "-m", "rotator", "run", "--plain")
+        process = subprocess.Popen(command, cwd=tmp_path, stdout=log, stderr=subprocess.STDOUT)
+    station = STATIONS["http://127.0.0.1:8232"] = Station(tmp_path, "http://127.0.0.1:8232", process)
+    (tmp_path / "r.toml").write_text("")  # what `tell` names: the sockets are where they are without a file
+    until_it_answers(station)
+    yield station
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=START_S) == 0
+
+
+def test_a_box_without_a_file_gets_one_by_one_press_and_its_antenna_stays(without_file: Station, visit: Visit) -> None:
+    page = visit(without_file)
+    pair(page)
+    page.locator(".angles dd", has_text=STANDS).wait_for()
+    page.get_by_role("link", name="Sky").click()
+    page.get_by_role("link", name="Setup, step 8").first.click()
+    for step in page.locator(".step > summary").all():
+        step.click()
+    page.get_by_role("button", name="Make a file").first.wait_for()
+    for waits in ("Reading the file", "The box thinks"):
+        assert page.get_by_text(waits).count() == 0
+    page.get_by_role("button", name="Make a file").first.click()
+    page.get_by_label("locator").first.wait_for()
+    assert page.get_by_role("button", name="Make a file").count() == 0
+    own = without_file.folder / "rotator.toml"
+    assert own.read_text() == shipped()
+    page.get_by_label("locator").first.fill("JO62qm")
+    page.get_by_role("button", name="See the change").first.click()
+    write_it(page)
+    assert tomllib.loads(own.read_text())["station"] == {"locator": "JO62qm"}
+    page.get_by_role("link", name="Antenna").click()
+    page.locator(".angles dd", has_text=STANDS).wait_for()
 
 
 def test_links_come_and_go(start: Start, visit: Visit) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import aiohttp
 import pytest
 
-from rotator.config.load import load
+from rotator.config.load import load, shipped
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Latch
 from rotator.runtime.anew import Anew
@@ -196,13 +196,57 @@ def test_a_new_start_never_stops_the_antenna_unsaid(page_box: Start, file: Path)
     asyncio.run(main())
 
 
-def test_a_box_without_a_file_says_how_to_get_one(page_box: Start) -> None:
+def test_a_box_without_a_file_gets_one(page_box: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    own = tmp_path / "rotator.toml"
+
+    async def main() -> None:
+        async with page_box() as box:
+            assert (await box.post("settings/file"))[0] == 401
+            await box.pair()
+            _, told = await box.get("settings")
+            assert (told["file"], told["own"], told["there"]) == ("", str(own), False)
+            assert told["in_force"]["rotor"]["hardware"] == "sim"
+            for path, body in (
+                ("settings/write", {"digest": told["digest"], "changes": []}),
+                ("calibrate", {"axis": "azimuth"}),
+            ):
+                status, refused = await box.post(path, body)
+                assert status == 409
+                assert "rotator config --to rotator.toml" in refused["error"]
+            assert await box.post("settings/file") == (200, {"ok": True, "run": told["run"]})
+            await box.until(lambda: box.anew.asked)
+            assert (box.anew.file, own.read_text()) == (own, shipped())
+
+    asyncio.run(main())
+
+
+@pytest.mark.parametrize(
+    ("text", "status"), [("[azimuth]\nmax_deg = 400\n", 200), ("[azimuth]\nmax_deg = true\n", 409), ("", 409)]
+)
+def test_a_file_that_is_there_is_taken_as_it_is_or_refused(
+    page_box: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, status: int
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    own = tmp_path / "rotator.toml"
+    own.write_text(text)
+
     async def main() -> None:
         async with page_box() as box:
             await box.pair()
-            status, told = await box.get("settings")
-            assert status == 409
-            assert "rotator config --to rotator.toml" in told["error"]
+            assert (await box.get("settings"))[1]["there"]
+            assert (await box.post("settings/file"))[0] == status
+            assert box.anew.file == (own if status == 200 else None)
+            assert own.read_text() == text
+
+    asyncio.run(main())
+
+
+def test_a_box_with_a_file_gets_no_other(page_box: Start, file: Path) -> None:
+    async def main() -> None:
+        async with page_box(file=file) as box:
+            await box.pair()
+            assert await box.post("settings/file") == (409, {"error": f"the box has a file: {file}"})
 
     asyncio.run(main())
 

@@ -1,15 +1,9 @@
 // Files to keep: a backup, the way back from one, and what another person needs to see what is wrong.
 import { upload } from "/box.js";
-import { back } from "/settings.js";
+import { Diff, back } from "/settings.js";
 import { act, html, useState } from "/ui.js";
 
 const day = (text) => (Number.isNaN(Date.parse(text)) ? text : new Date(text).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" }));
-
-function Diff({ rows }) {
-  if (!rows.length) return html`<p>The configuration is the same as now.</p>`;
-  return html`<pre class="changes" tabindex="0" role="region" aria-label="What changes in the configuration">${rows.map((row) =>
-    html`<span class=${row[0] === "+" ? "added" : row[0] === "-" ? "gone" : "same"}>${row}</span>`)}</pre>`;
-}
 
 function Restore() {
   const [file, setFile] = useState(null), [shown, setShown] = useState(null), [said, say] = useState(""), [done, setDone] = useState("");
@@ -37,7 +31,7 @@ function Restore() {
     <p>Everything in a backup is checked first, and you see what it changes. What is there now is kept.</p>
     <label class="file">A backup<input type="file" accept=".zip,application/zip" onChange=${look} /></label>
     ${shown && html`<div class="asks"><p>Backup of <b>${day(shown.made)}</b>, by rotator ${shown.program}: ${shown.rotor}; ${shown.files.join(", ")}.</p>
-      <${Diff} rows=${shown.diff} />
+      ${shown.diff.length ? html`<${Diff} rows=${shown.diff} label="What changes in the configuration" />` : html`<p>The configuration is the same as now.</p>`}
       <p>The antenna stops, the box starts anew with this, and obeys its limits and calibration from then on. Restore it?</p>
       <button type="button" class="go" onClick=${restore}>Restore it</button>
       <button type="button" onClick=${() => setShown(null)}>No</button></div>`}

@@ -28,9 +28,12 @@ export async function back(run) {
 /** The settings of the box and the tables of its file. `change`: has them written, and the box started anew. `hello`: of
     the connection, another one after each start of the box: the file may have been changed elsewhere. */
 export function useSettings(say, hello) {
-  const [file, setFile] = useState(null), [tables, setTables] = useState(null), [busy, setBusy] = useState("");
-  const load = () => act(whole("settings").then(setFile), say);
-  useEffect(() => void act(whole("settings/form").then((told) => setTables(told.tables)), say), []);
+  const [file, setFile] = useState(null), [tables, setTables] = useState(null), [busy, setBusy] = useState(""), [lost, setLost] = useState("");
+  const load = () => {
+    setLost("");
+    const both = [whole("settings").then(setFile), tables ?? whole("settings/form").then((told) => setTables(told.tables))];
+    return Promise.all(both).catch((fault) => setLost(fault.message));
+  };
   useEffect(() => void (busy || load()), [hello]);
   const change = async (path, values) => {
     setBusy("The box starts anew …");
@@ -46,7 +49,24 @@ export function useSettings(say, hello) {
       setBusy("");
     }
   };
-  return { file, tables, busy, load, change };
+  return { file, tables, busy, lost, lose: setLost, load, change };
+}
+
+/** In place of what needs the file: why there is none yet. `settings.lost`: the box has refused to show it. */
+export function Missing({ settings: { file, busy, lost, load, change }, now }) {
+  if (lost) return html`<p class="mistake" role="alert">${lost}</p><button type="button" onClick=${load}>Look again</button>`;
+  if (file?.file !== "") return html`<p>Reading the file …</p>`;
+  const make = () => change("settings/file", { stop: now.status.moving });
+  return html`<p>This box runs without a file, so nothing can be set. ${file.there ? html`<code>${file.own}</code> is there already, and can be used.` : html`It gets <code>${file.own}</code>, and starts anew with it in a few seconds.`} Later, by hand: <code>rotator run --config rotator.toml</code>.${now.status.moving && html` <b>The antenna moves: it stops.</b>`}</p>
+    <button type="button" class="go" disabled=${busy !== ""} onClick=${make}>${file.there ? "Use this file" : "Make a file"}</button> <span role="status">${busy}</span>`;
+}
+
+/** Whether the box has a file, and it is here. */
+export const ready = ({ file, tables }) => !!(file?.file && tables);
+
+/** Lines that change: + and - at their beginning. */
+export function Diff({ rows, label }) {
+  return html`<pre class="diff" tabindex="0" role="region" aria-label=${label}>${rows.map((row) => html`<span class=${row[0] === "+" ? "new" : row[0] === "-" ? "old" : ""}>${row || " "}</span>`)}</pre>`;
 }
 
 const at = (values, place) => place.reduce((inner, part) => inner?.[part], values);
@@ -109,7 +129,7 @@ function ListTable({ table, file, draft, setDraft, ...more }) {
 /** What would change, and the question whether it is to be written. The antenna stops where it moves. */
 export function Proposed({ diff, moving, onWrite, onLeave }) {
   return html`<section class="asks proposed" role="group" aria-label="What would change">
-    <pre class="diff" tabindex="0" aria-label="Lines that change">${diff.map((row) => html`<span class=${row[0] === "+" ? "new" : row[0] === "-" ? "old" : ""}>${row}\n</span>`)}</pre>
+    <${Diff} rows=${diff} label="Lines that change" />
     <p>The box writes this, keeps the file before beside it, and starts anew: that takes a few seconds.${moving && html` <b>The antenna moves: it stops.</b>`}</p>
     <button type="button" class="go" onClick=${onWrite}>Write it and start anew</button> <button type="button" onClick=${onLeave}>Not yet</button></section>`;
 }
@@ -119,9 +139,9 @@ export function Settings({ settings, now, say, only, keys }) {
   const { file, busy, change, load } = settings, within = only ? `step-${only.join("-")}` : "set";
   const tables = useMemo(() => settings.tables?.filter((table) => !only || only.includes(name(table.path))), [settings.tables]);
   const [draft, setDraft] = useState({}), [forgotten, setForgotten] = useState(0), [words, setWords] = useState(""), [proposed, propose] = useState(null);
-  const mistakes = proposed?.mistakes ?? [], changes = useMemo(() => (file ? changesOf(draft, tables, file.values) : []), [draft, file]);
+  const mistakes = proposed?.mistakes ?? [], changes = useMemo(() => (ready(settings) ? changesOf(draft, tables, file.values) : []), [draft, file]);
   useEffect(() => (propose(null), undefined), [draft]);
-  if (!file || !tables) return html`<p>Reading the file …</p>`;
+  if (!ready(settings)) return html`<${Missing} settings=${settings} now=${now} />`;
   const wanted = words.trim().toLowerCase();
   const find = (table, of) => keys ? keys.includes(of.key) : !wanted || `${name(table.path)}.${of.key} ${of.meaning}`.toLowerCase().includes(wanted);
   const check = () => act(post("settings/check", { digest: file.digest, changes }).then(propose), say);

@@ -4,7 +4,7 @@ import { Calibrate } from "/calibrate.js";
 import { Errands } from "/errands.js";
 import { Asks } from "/hand.js";
 import { Header } from "/header.js";
-import { Proposed, Settings, useSettings } from "/settings.js";
+import { Missing, Proposed, Settings, ready, useSettings } from "/settings.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
 
 const JUST_MS = 5000, ASKS = /^(C2?|B|p|\\?get_pos|AZ EL|AI1;?|:GZ#|\?)$/i;
@@ -15,11 +15,11 @@ function Rotor({ settings, now, say }) {
   const [questions, setQuestions] = useState(null), [answers, setAnswers] = useState({}), [proposed, propose] = useState(null);
   useEffect(() => {
     let late = false;
-    act(post("setup/questions", { answers }).then((told) => late || setQuestions(told.questions)), say);
+    if (ready(settings)) post("setup/questions", { answers }).then((told) => late || setQuestions(told.questions), (fault) => late || settings.lose(fault.message));
     return () => (late = true);
-  }, [answers]);
+  }, [answers, ready(settings) && settings.file]);
   const { file, change, busy } = settings;
-  if (!questions || !file) return html`<p>The box thinks of its questions …</p>`;
+  if (!questions || !ready(settings)) return html`<${Missing} settings=${settings} now=${now} />`;
   const all = { ...Object.fromEntries(questions.map(({ name, answer }) => [name, answer])), ...answers };
   const set = (name, answer) => (propose(null), setAnswers((before) => ({ ...before, [name]: answer })));
   const values = { digest: file.digest, answers: all };
@@ -114,8 +114,9 @@ function Step({ number, title, done, children, open }) {
 
 export function Setup({ now, hello, say }) {
   const settings = useSettings(say, hello);
-  const { file } = settings, of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
+  const { file } = settings, made = ready(settings), of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
   const calibrated = (axis) => (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
+  const missing = html`<${Missing} settings=${settings} now=${now} />`;
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
   return html`<div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
     <${Step} number="1" title="Which rotor" done=${file?.values.rotor?.type}><${Rotor} ...${of} /><//>
@@ -123,11 +124,11 @@ export function Setup({ now, hello, say }) {
     <${Step} number="3" title="Try each relay"><${Relays} now=${now} hello=${hello} say=${say} />${some(["relays"])}<//>
     <${Step} number="4" title="Read the sensors"><${Sensor} now=${now} axis="azimuth" at="0" /><${Sensor} now=${now} axis="elevation" at="1" />
       <p class="about">Turn the rotor by hand or by its own box: the reading follows smoothly, and stands with it.</p>${some(["azimuth.sensor", "elevation.sensor", "adc"])}<//>
-    <${Step} number="5" title="Calibrate the azimuth" done=${calibrated("azimuth")}><${Calibrate} axis="azimuth" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Errands} now=${now} axes=${["azimuth"]} say=${say} /><//>
-    <${Step} number="6" title="Calibrate the elevation" done=${calibrated("elevation")}><${Calibrate} axis="elevation" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Errands} now=${now} axes=${["elevation"]} say=${say} /><//>
+    <${Step} number="5" title="Calibrate the azimuth" done=${calibrated("azimuth")}>${made ? html`<${Calibrate} axis="azimuth" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} />` : missing}<${Errands} now=${now} axes=${["azimuth"]} say=${say} /><//>
+    <${Step} number="6" title="Calibrate the elevation" done=${calibrated("elevation")}>${made ? html`<${Calibrate} axis="elevation" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} />` : missing}<${Errands} now=${now} axes=${["elevation"]} say=${say} /><//>
     <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount", "mount.forbidden"], ["min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon", "name", "azimuth_deg", "elevation_deg"])}<//>
     <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}><${Clock} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
-    <${Step} number="10" title="Open it to the network"><${Network} ...${of} /><//>
+    <${Step} number="10" title="Open it to the network">${made ? html`<${Network} ...${of} />` : missing}<//>
     <${Step} number="11" title="All settings"><${Settings} ...${of} /><//></div>`;
 }
