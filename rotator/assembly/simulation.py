@@ -143,20 +143,17 @@ def kept_world(config: Config) -> WorldState | None:
 
 
 def kept_place(path: Path) -> tuple[float, float]:
-    """The angles at which the last run has left a simulated rotor; 0 and 0: they are not known."""
+    """Azimuth and elevation where the last run has left a simulated rotor; 0 and 0: not known."""
     try:
-        kept = json.loads(path.read_text(encoding="utf-8"))
-        return number(kept["azimuth_deg"], "azimuth", -360.0, 720.0), number(
-            kept["elevation_deg"], "elevation", -360.0, 720.0
-        )
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        azimuth, elevation = json.loads(path.read_text(encoding="utf-8"))
+        return number(azimuth, "azimuth", -360, 720), number(elevation, "elevation", -360, 720)
+    except (OSError, ValueError, TypeError, RecursionError):
         return 0.0, 0.0
 
 
 def keep_place(path: Path, rotor: SimRotor) -> None:
-    azimuth_deg, elevation_deg = rotor.rests()
     with suppress(OSError):
-        write_whole(path, json.dumps({"azimuth_deg": round(azimuth_deg, 2), "elevation_deg": round(elevation_deg, 2)}))
+        write_whole(path, json.dumps([round(angle_deg, 2) for angle_deg in rotor.rests()]))
 
 
 def simulated_rotor(

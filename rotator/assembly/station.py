@@ -183,9 +183,7 @@ class Station:
 
 def open_station(config: Config) -> Station:
     """The hardware, in real time. Where the rotor outlives the program, axes that count start with the kept counts.
-
-    A simulated rotor begins where the last run has left it.
-    """
+    Another simulated rotor begins where the last run has left it."""
     state = Path(config.state.path)
     if config.keeps_files:
         return Station(config, time.monotonic, time.sleep, counts=state.with_name(counts_file.FILE_NAME))

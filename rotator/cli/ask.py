@@ -1,5 +1,4 @@
 """`rotator config --ask`: asks for rotor, link, display, network and place, and writes the file that comes of it.
-Also `--to` alone: writes a shipped file.
 
 Knows the dialogue: Enter, back, help, and that an interrupted one writes nothing. `rotator.setup.questions` has the
 questions, `question` what an answer means, and `new_file` makes the text.
@@ -19,9 +18,8 @@ from pathlib import Path
 
 import click
 
-from rotator.config.load import SIMULATED, parse, shipped
+from rotator.config.load import SIMULATED, parse
 from rotator.config.places import INSTALLED
-from rotator.config.writing import write_new
 from rotator.setup import tree
 from rotator.setup.machine import Machine, this_machine
 from rotator.setup.new_file import for_the_service, new_file
@@ -109,18 +107,6 @@ def ask(name: str, to: Path | None, *, today: Callable[[], date] = date.today, m
         click.echo()
         raise SetupError("nothing was written") from None
     _what_next(dialogue, path, answers)
-
-
-def write_shipped(name: str, to: Path) -> None:
-    """Write a shipped file. Raises SetupError, ConfigError; then nothing is written."""
-    text = shipped(name)
-    try:
-        write_new(to, text)
-    except FileExistsError:
-        raise SetupError(f"{to} is there already: give another name. Nothing was written") from None
-    except OSError as fault:
-        raise SetupError(f"{to} cannot be written: {fault.strerror}") from fault
-    click.echo(f"{to} is written. Next:\n  rotator run --config {to}")
 
 
 def _answers(dialogue: Dialogue, machine: Machine, name: str) -> dict[str, str]:

@@ -79,9 +79,10 @@ def show_config(name: str | None, listed: bool, asked: bool, to: Path | None) ->
     if listed and to is not None:
         raise click.UsageError("--list writes no file: rotator config NAME --to FILE")
     if to is not None:
-        from rotator.cli.ask import write_shipped
+        from rotator.setup.tree import write_new
 
-        write_shipped(name, to)
+        write_new(to, shipped(name))
+        click.echo(f"{to} is written. Next:\n  rotator run --config {to}")
         return
     if listed:
         for each in (SIMULATED, *profiles()):

@@ -14,12 +14,6 @@ WRITING = threading.Lock()
 """Held from reading the file to replacing it: a calibration and the page do not undo each other's change."""
 
 
-def write_new(path: Path, text: str) -> None:
-    """Write a file that is not there yet, not through a link either. Raises FileExistsError, OSError."""
-    with path.open("x", encoding="utf-8") as file:
-        file.write(text)
-
-
 def replace(path: Path, before: str, text: str) -> None:
     """Write the new text; the old one stays beside it as `.bak`. Raises OSError."""
     write_whole(path.with_name(path.name + ".bak"), before)

@@ -71,6 +71,15 @@ def _content(path: Path) -> Content:
         raise SetupError(_sentence(path, fault)) from fault
 
 
+def write_new(path: Path, text: str) -> None:
+    """Write a file where there is none, nor a link. Raises SetupError."""
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except OSError as fault:
+        raise SetupError(f"{path} cannot be written: {fault.strerror}") from fault
+
+
 def hindrance(plan: ChangeSet) -> str | None:
     """The reason why the changes cannot be made, before any is tried; None: they can."""
     for change in plan.changes:

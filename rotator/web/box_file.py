@@ -7,6 +7,7 @@ themselves, nor HTTP.
 from __future__ import annotations
 
 import asyncio
+import os
 import secrets
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -18,11 +19,11 @@ from hw.ports import Axis
 from rotator.config.edit import NoChangeError
 from rotator.config.load import SIMULATED_FILE, ConfigError, load, shipped
 from rotator.config.proposal import OverwritesError, Proposal, Settings, propose, settings, write
-from rotator.config.writing import write_new
 from rotator.exchange.status import Status
 from rotator.protocols.methods import WrongValuesError
 from rotator.runtime.anew import Anew
 from rotator.setup.plan import SetupError
+from rotator.setup.tree import write_new
 from rotator.web.entrance import RefusedError
 from rotator.web.schema import TEXT, YES, object_of, the
 
@@ -66,7 +67,7 @@ class BoxFile:
         if self.file is not None:
             raise RefusedError(f"the box has a file: {self.file}")
         with _refusing():
-            await asyncio.to_thread(_made, OWN)
+            await asyncio.to_thread(lambda: load(OWN) if os.path.lexists(OWN) else write_new(OWN, shipped()))
         self.anew.file = OWN.absolute()
         return self.anew.file
 
@@ -88,14 +89,6 @@ class BoxFile:
         """Start the box again as soon as this answer is sent. `sets_up`: an axis to calibrate then."""
         asyncio.get_running_loop().call_later(ANSWERED_S, lambda: self.anew.ask(self.status(), sets_up))
         return {"ok": True, "run": self.run}
-
-
-def _made(path: Path) -> None:
-    """Write the file, or check the one that is there. Raises OSError, ConfigError."""
-    try:
-        write_new(path, shipped())
-    except FileExistsError:
-        load(path)
 
 
 def stop_of(others: Mapping[str, object]) -> bool:

@@ -94,7 +94,7 @@ STANDS = re.compile(r"^(119|120)\.\d°")
 def without_file(tmp_path: Path, usual_port: None) -> Iterator[Station]:
     """`rotator run` without a file, as on the second evening: the antenna stands where the first one has left it."""
     (tmp_path / "run").mkdir()
-    (tmp_path / "run" / PLACE_FILE).write_text('{"azimuth_deg": 120, "elevation_deg": 10}')
+    (tmp_path / "run" / PLACE_FILE).write_text("[120, 10]")
     with socket.socket() as other:
         if other.connect_ex(("127.0.0.1", 8232)) == 0:
             pytest.skip("another box has the usual port of the page")
