@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import random
 import subprocess
+import time
 from collections.abc import Callable
 
 import pytest
@@ -90,7 +91,33 @@ def test_a_day(shack: Callable[..., Shack], chance: random.Random, need_program:
     machine.arrives(180, 0, AT_AN_END_DEG)
 
     assert machine.faults() == []
+    angle_kept(machine, chance)
     a_power_cut(machine, Terminal(machine.ptys[0]), chance)
+
+
+def angle_kept(machine: Shack, chance: random.Random) -> None:
+    """A proper stop and a kill at rest: the next run knows the angle, and its first order rests where it was sent."""
+    for kill in (False, True):
+        there = chance.randint(30, 330), chance.randint(15, 75)
+        terminal = Terminal(machine.ptys[0])
+        terminal.send(f"W{there[0]:03d} {there[1]:03d}\r")
+        machine.arrives(*there, NEAR_DEG)
+        time.sleep(2.5)  # the angle at rest is kept within two looks of a second
+        terminal.close()
+        if kill:
+            machine.cut()
+            machine.power_cut()
+        else:
+            machine.stop()
+        machine.start()
+        terminal = Terminal(machine.ptys[0])
+        terminal.send("C2\r")
+        read = terminal.answer()
+        assert abs(int(read[3:6]) - there[0]) <= NEAR_DEG + 0.5, read
+        on = there[0] + chance.choice([-18, 18]), there[1] + chance.choice([-9, 9])
+        terminal.send(f"W{on[0]:03d} {on[1]:03d}\r")
+        machine.arrives(*on, NEAR_DEG)
+        terminal.close()
 
 
 def a_power_cut(machine: Shack, terminal: Terminal, chance: random.Random) -> None:

@@ -6,14 +6,17 @@ The phone is Look4Sat on Bluetooth with the template `AZ$AZ EL$EL\r`. Where the 
 from __future__ import annotations
 
 import random
+import time
 from collections.abc import Callable
 
 import pytest
 
+from firmware_sim.world_file import WorldState
 from tests.machines.shack import Shack, Terminal, fly
 
 NEAR_DEG = 1.5
 """Half a degree of a pulse's step, twice, and the jitter."""
+Place = tuple[float, float]
 UNSTOPPED_DEG = 40.0
 """What a servo turns at 60°/s until the bytes of a stop are obeyed on a busy machine."""
 
@@ -68,6 +71,7 @@ def test_a_day(shack: Callable[..., Shack], chance: random.Random) -> None:
     the_phones_evening(machine, terminal, chance)
     terminal.close()
     assert machine.faults() == []
+    no_swing(machine, chance)
     a_power_cut(machine, chance)
 
 
@@ -89,6 +93,45 @@ def the_phones_evening(machine: Shack, terminal: Terminal, chance: random.Random
     terminal.send("PARK\r")
     machine.arrives(90, 90, NEAR_DEG)
     assert machine.world().lcd[0].startswith(("SAT", "AZ", "EL")), machine.world().lcd
+
+
+def no_swing(machine: Shack, chance: random.Random) -> None:
+    """The program is killed, at rest or in mid-move, or ends properly; the board may lose its supply too. The first
+    order then leads from where the servos stand to its place, and nowhere else."""
+    for ends in ("killed", "killed in mid-move", "power cut", "stopped"):
+        here = machine.world().shafts_deg
+        terminal = Terminal(machine.ptys[0])
+        there = chance.uniform(5, 175), chance.uniform(5, 80)
+        phone(terminal, *there)
+        if ends == "killed in mid-move":
+            moving(machine, here)
+        else:
+            machine.arrives(*there, NEAR_DEG)
+            time.sleep(2.5)  # the angle at rest is kept within two looks of a second
+        terminal.close()
+        if ends == "stopped":
+            machine.stop()
+        else:
+            machine.cut()
+        if ends == "power cut":
+            machine.power_cut()
+        machine.start()
+        stood = machine.stands()
+        terminal = Terminal(machine.ptys[0])
+        aims = chance.uniform(5, 175), chance.uniform(5, 80)
+        phone(terminal, *aims)
+        way: list[tuple[float, float]] = []
+
+        def there_now(world: WorldState, way: list[tuple[float, float]] = way, aims: Place = aims) -> bool:
+            way.append(world.shafts_deg)
+            return world.shafts_deg == pytest.approx(aims, abs=NEAR_DEG)
+
+        machine.until(there_now, f"the first order is obeyed after the end: {ends}")
+        for axis, (begun, goal) in enumerate(zip(stood, aims, strict=True)):
+            angles = [shafts[axis] for shafts in way]
+            assert min(begun, goal) - 2 * NEAR_DEG <= min(angles), (ends, angles)
+            assert max(angles) <= max(begun, goal) + 2 * NEAR_DEG, (ends, angles)
+        terminal.close()
 
 
 def a_power_cut(machine: Shack, chance: random.Random) -> None:

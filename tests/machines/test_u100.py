@@ -83,7 +83,7 @@ def standing(machine: Shack) -> list[str]:
 
 
 def until_kept(machine: Shack) -> None:
-    """Wait until the file has both angles: a rest is written after some seconds."""
+    """Wait until the file has both angles: a rest is written as soon as the coast is over."""
     give_up_s = time.monotonic() + PATIENCE_S
     while standing(machine) != ["known", "known"]:
         assert time.monotonic() < give_up_s, standing(machine)

@@ -26,7 +26,7 @@ class DigipotAxisTable(Table):
     steps: list[Point] = Field(default=[(0.0, 0.0), (360.0, 256.0)], min_length=2)
     """Points [degrees, the chip's step there, 0 to 256]."""
     start_deg: float = Field(0.0, ge=-360, le=720)
-    """The assumed angle at the start of the program, if no pot measures it."""
+    """The assumed angle on a new box, if no pot measures it; later it is the angle that was kept."""
     dead_band_deg: float = Field(2.0, ge=0, le=20)
     """The error at which the control box turns its motor."""
 
@@ -100,7 +100,8 @@ class DigipotKind(Kind):
     def first_move(self, axis: Axis) -> str:
         start_deg = self.digipot.of(axis).start_deg
         return (
-            f"The box assumes that it stands at {start_deg:g}° (start_deg). If it does not, its first move goes there."
+            f"The box assumes that it stands where it was last (on a new box at {start_deg:g}°). If it does not, its "
+            "first move goes there."
         )
 
     def reversal(self, axis: Axis) -> str:

@@ -26,7 +26,7 @@ class ServoAxisTable(Table):
     pulses_us: list[Point] = Field(default=[(0.0, 500.0), (180.0, 2500.0)], min_length=2)
     """Points [degrees, pulse width in microseconds]; no pulse goes beyond their ends."""
     start_deg: float = Field(0.0, ge=-360, le=720)
-    """The angle of the first pulse, at full speed: set it to where you leave the antenna."""
+    """The angle of the first pulse on a new box, at full speed; later that is the angle that was kept."""
     slew_dps: float = Field(60.0, gt=0, le=720)
     """The speed of the ordered angle; not above the servo's own."""
 
@@ -87,8 +87,8 @@ class ServoKind(Kind):
 
     def first_move(self, axis: Axis) -> str:
         return (
-            f"With its first pulse, that of the first press, the servo runs to {self.servo.of(axis).start_deg:g}°, "
-            "as fast as it can: keep clear. When it stands, press again."
+            f"With its first pulse, that of the first press, the servo runs to the angle that it had last (on a "
+            f"new box {self.servo.of(axis).start_deg:g}°), as fast as it can: keep clear. When it stands, press again."
         )
 
     def reversal(self, axis: Axis) -> str:
