@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-MOST = 32_500
-"""Of README and docs together: 30,000 to read and to look up, and the record of the five machines."""
+MOST = 34_000
+"""Of README and docs together: 32,000 to read and to look up, and 2,000 for the record of the five machines."""
 _GENERATED = re.compile(r"<!-- (\w+): begin -->.*?<!-- \1: end -->", re.DOTALL)
 
 
