@@ -141,12 +141,12 @@ refuse_a_full_disk() {
 try_out() { # FOLDER: it starts, has the profile, and accepts the configuration that is there, or else the profile
     local package
     "$1/bin/rotator" --version >/dev/null && "$1/bin/rotator" config "$profile" >"$scratch/profile.toml" || return 1
-    for package in $extras; do "$1/bin/python" -c "import $package" || return 1; done
+    for package in $extras; do "$1/bin/python" -I -c "import $package" || return 1; done
     if [ -e $CONFIG ]; then open_ports "$1" $CONFIG >/dev/null; else open_ports "$1" "$scratch/profile.toml" >/dev/null; fi
 }
 
 open_ports() { # FOLDER FILE: prints the port of each rotctld that is open to the network; fails on a wrong configuration
-    "$1/bin/python" - "$2" <<'END'
+    "$1/bin/python" -I - "$2" <<'END'
 import ipaddress, sys
 from pathlib import Path
 from rotator.config.load import ConfigError, load
@@ -191,7 +191,8 @@ own() { mkdir -p "$1" && chmod 755 "$1" && chown -R rotator:rotator "$1"; }
 
 write_config() {
     "$HERE/install/first-config.sh" "$version_at/bin/rotator" "$profile" >"$scratch/rotator.toml"
-    install -o rotator -g rotator -m 644 "$scratch/rotator.toml" $CONFIG
+    # By the user whose folder it is: root would follow a link that lies there. It may come to hold a password.
+    runuser -u rotator -- sh -c "umask 027; cat >$CONFIG" <"$scratch/rotator.toml"
 }
 
 switch_to() { # VERSION FILES: put the files in place, point current at the version, start it

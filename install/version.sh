@@ -9,7 +9,7 @@ check_python() {
 }
 
 find_extras() { # sets extras: what the configuration that is there, or else the profile, needs beside the rest
-    extras=$("$PYTHON" - "$CONFIG" "$source_at" "rotator/config/profiles/$profile.toml" <<'END'
+    extras=$("$PYTHON" -I - "$CONFIG" "$source_at" "rotator/config/profiles/$profile.toml" <<'END'
 import sys, tomllib, zipfile
 from pathlib import Path
 config, source, profile = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]

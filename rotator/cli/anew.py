@@ -68,7 +68,7 @@ def start_anew(
             else:
                 with WRITING:
                     if text is not None:
-                        write_whole(path.with_name(path.name + REFUSED), text)
+                        write_whole(path.with_name(path.name + REFUSED), text, like=path)
                     write_whole(path, good)
                 log.error("the new %s cannot be used, and the one before it is back: %s", path.name, fault)
             anew.refused = str(fault)

@@ -145,7 +145,7 @@ def _write(dialogue: Dialogue, path: Path, text: str, today: date) -> None:
     if before is None:
         folder = path.resolve().parent.stat()
         with suppress(PermissionError):  # the service saves calibrations in it
-            os.chown(path, folder.st_uid, folder.st_gid)
+            os.chown(path, folder.st_uid, folder.st_gid, follow_symlinks=False)
 
 
 def _what_next(dialogue: Dialogue, path: Path, answers: dict[str, str]) -> None:

@@ -128,7 +128,7 @@ async def _run(
 
 def _draw(shown: Residuals, svg: Path, screen: PlainLines | LivePicture) -> None:
     try:
-        write_whole(svg, residual_svg(shown.points, shown.before, shown.after))
+        write_whole(svg, residual_svg(shown.points, shown.before, shown.after), mode=0o644)
     except OSError as fault:
         screen.show(f"{svg}: cannot be written: {fault.strerror}")
     else:

@@ -215,6 +215,6 @@ def _write_trace(path: Path, rows: list[Sample]) -> None:
 
 def _write(path: Path, text: str) -> None:
     try:
-        write_whole(path, text)
+        write_whole(path, text, mode=0o644)
     except OSError as fault:
         raise _not_written(path, fault) from None

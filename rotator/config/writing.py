@@ -16,5 +16,5 @@ WRITING = threading.Lock()
 
 def replace(path: Path, before: str, text: str) -> None:
     """Write the new text; the old one stays beside it as `.bak`. Raises OSError."""
-    write_whole(path.with_name(path.name + ".bak"), before)
+    write_whole(path.with_name(path.name + ".bak"), before, like=path)
     write_whole(path, text)

@@ -192,7 +192,9 @@ class PtyLink:
 
         A symlink without a lock is left over from a program that died, and may be replaced.
         """
-        self._locked = os.open(self._path.with_name(f".{self._path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
+        self._locked = os.open(
+            self._path.with_name(f".{self._path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o600
+        )
         fcntl.flock(self._locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def _close_fds(self) -> None:

@@ -40,7 +40,7 @@ def claimed(path: Path) -> Iterator[socket.socket]:
     OSError when no socket can be made there.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    locked = os.open(path.with_name(f".{path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
+    locked = os.open(path.with_name(f".{path.name}.lock"), os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o600)
     try:
         fcntl.flock(locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
         if path.is_socket():

@@ -101,7 +101,7 @@ def carry_out(plan: ChangeSet, today: date) -> list[Path]:
         try:
             if change.copied and isinstance(change.before, str):
                 copies.append(_free_name(change.path, today))
-                write_whole(copies[-1], _bytes(change.before))
+                write_whole(copies[-1], _bytes(change.before), like=change.path)
             done.append(change)
             _put(change.path, change.after)
         except OSError as fault:
@@ -123,7 +123,8 @@ def _put(path: Path, content: Content) -> None:
             path.symlink_to(target)
         case text:
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(path, _bytes(text))
+            # The box's own file may come to hold a password.
+            write_whole(path, _bytes(text), mode=0o640 if path.suffix == ".toml" else 0o644)
 
 
 def _take_back(done: list[Change], copies: list[Path]) -> None:

@@ -54,7 +54,7 @@ class Uploads:
         unchecked = self.folder / UNCHECKED
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            unchecked.write_bytes(content)
+            write_whole(unchecked, content)
             try:
                 if wrong := faults(unchecked):
                     raise NotKeptError(f"{name} is not taken: {_few(wrong)}")

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import pwd
 import re
 import shlex
 import subprocess
 import sys
+import tempfile
 import tomllib
 import zipfile
 from collections.abc import Callable
@@ -19,6 +22,7 @@ from release.environment import LOCK
 from release.lock import SETS
 
 PROJECT = Path(__file__).parent.parent.parent
+NOBODY = pwd.getpwnam("nobody")[2:4]
 
 
 def test_shellcheck(need_program: Callable[[str, str], str]) -> None:
@@ -138,3 +142,43 @@ def test_a_package_with_another_hash_is_refused(tmp_path: Path, name: str) -> No
         said
         == "a package is not the one that this version was tested with: on its way here it was damaged, or replaced"
     )
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root installs")
+@pytest.mark.parametrize("planted", ["", "rotator.toml.new", "rotator.toml"])
+@pytest.mark.parametrize("script", ["install.sh", "install/deb/postinst"])
+def test_the_first_configuration_goes_through_no_link_of_the_service_s_user(script: str, planted: str) -> None:
+    """The folder belongs to that user, here to nobody. Others may not read what may come to hold a password."""
+    text = (PROJECT / script).read_text()
+    name = "write_config" if script == "install.sh" else "write_first_config"
+    body = re.search(rf"^{name}\(\) {{.*?^}}", text, re.MULTILINE | re.DOTALL)
+    assert body
+    with tempfile.TemporaryDirectory(dir="/var/tmp") as made:
+        at = Path(made)
+        at.chmod(0o755)
+        (at / "install").mkdir()
+        (at / "shadow").write_text("root's")
+        for program in ("install/first-config.sh", "first-config.sh"):
+            (at / program).write_text("#!/bin/sh\necho '[rotor]'\n")
+            (at / program).chmod(0o755)
+        etc = at / "etc"
+        etc.mkdir()
+        os.chown(etc, *NOBODY)
+        if planted:
+            (etc / planted).symlink_to(at / "shadow")
+        said = {
+            "HERE": at,
+            "HOME_AT": at,
+            "CONFIG": etc / "rotator.toml",
+            "scratch": at,
+            "version_at": at,
+            "profile": "x",
+        }
+        variables = "".join(f"{key}={value}\n" for key, value in said.items())
+        command = f"set -e\n{variables}{body[0].replace('runuser -u rotator', 'runuser -u nobody')}\n{name}"
+        subprocess.run(["bash", "-c", command], capture_output=True, check=False)
+        assert (at / "shadow").read_text() == "root's"
+        if planted != "rotator.toml":
+            written = etc / "rotator.toml"
+            assert written.read_text() == "[rotor]\n"
+            assert (written.stat().st_uid, written.stat().st_mode & 0o777) == (NOBODY[0], 0o640)
