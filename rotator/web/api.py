@@ -106,7 +106,7 @@ class Api:
         pictures = "A WebSocket: ten pictures of the box a second, STOP, and a button that is held", MESSAGES
         return (
             get("/api/status", self._read(lambda: as_object(parts.status())), status),
-            get("/api/box", self._read(lambda: box(parts.station, parts.status())), station),
+            get("/api/box", self._box, station),
             get("/api/past", self._read(parts.scene.past.rows), past),
             get("/api/path", self._read(parts.scene.path), path),
             get("/api/log", self._log, log, access=PAIRED),
@@ -119,6 +119,13 @@ class Api:
             return web.json_response(make())
 
         return answer
+
+    async def _box(self, request: web.Request) -> web.StreamResponse:
+        self._entrance.may_read(request)
+        return web.json_response(self._box_for(self._entrance.who(request)))
+
+    def _box_for(self, who: Paired | None) -> dict[str, Any]:
+        return box(self._parts.station, self._parts.status(), stranger=who is None)
 
     async def _log(self, request: web.Request) -> web.StreamResponse:
         # The answer names people's browsers and machines.
@@ -137,7 +144,7 @@ class Api:
         holding = None if who is None else Holding(self._live.pictures, self._jogging(request))
         await self._live.serve(
             socket,
-            hello(who) | {"box": box(self._parts.station, self._parts.status())},
+            hello(who) | {"box": self._box_for(who)},
             holding,
             lambda: self._is_still(who, request),
             stop=lambda: self._as(self._entrance.who(request)).do(Stop(latch=True)),

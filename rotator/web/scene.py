@@ -45,14 +45,15 @@ class Station:
     """Latitude and longitude; None: not known."""
 
 
-def box(station: Station, status: Status) -> dict[str, Any]:
-    """The range, the horizon, the sectors: for the browser's one request."""
+def box(station: Station, status: Status, *, stranger: bool) -> dict[str, Any]:
+    """The range, the horizon, the sectors: for the browser's one request. A stranger learns the place to a degree."""
     mount = station.mount
+    exact = station.where
     return {
         "version": __version__,
         "simulated": status.simulated,
         "beam_deg": station.beam_deg,
-        "where": station.where,
+        "where": [round(deg) for deg in exact] if exact and stranger else exact,
         "azimuth": {"min_deg": mount.azimuth.min_deg, "max_deg": mount.azimuth.max_deg},
         "elevation": {"min_deg": mount.elevation.min_deg, "max_deg": mount.elevation.max_deg},
         "tolerance_deg": station.tolerances_deg,

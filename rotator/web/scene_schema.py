@@ -17,7 +17,7 @@ BOX: Schema = object_of(
         "version": TEXT,
         "simulated": the("nothing real turns", YES),
         "beam_deg": the("how wide the antenna sees", NUMBER),
-        "where": or_null(the("latitude and longitude", _PAIR)),
+        "where": or_null(the("latitude and longitude, to a whole degree for who is not paired", _PAIR)),
         "azimuth": _RANGE,
         "elevation": _RANGE,
         "tolerance_deg": the("of azimuth and elevation: so near is at the target", _PAIR),

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import re
 import socket
 import sys
 from collections.abc import Callable
 from contextlib import AbstractAsyncContextManager
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, cast
 
 import aiohttp
@@ -351,3 +353,31 @@ def test_a_crowd_of_machines_with_a_connection_each_pushes_out_no_person_who_has
 def _place(box: Box) -> tuple[str, int]:
     host, _, port = box.url.removeprefix("http://").partition(":")
     return host, int(port)
+
+
+PLACE = "[station]\nlatitude_deg = 48.123456\nlongitude_deg = 11.654321\n"
+EXACT = re.compile(r"48\.1234|11\.654|JN58td", re.IGNORECASE)
+
+
+def test_a_stranger_learns_the_place_of_the_station_to_a_degree_and_the_paired_see_it(
+    page_box: Start, tmp_path: Path
+) -> None:
+    """Everything that a browser may read without pairing."""
+
+    async def main() -> None:
+        async with page_box(PLACE, file=tmp_path / "r.toml") as box:
+            _, told = await box.get("openapi.json")
+            paths = [path for path, does in told["paths"].items() if "get" in does]
+            assert len(paths) > 15
+            for path in (*paths, "/"):
+                async with box.http.get(box.url + path) as answer:
+                    assert not EXACT.search(await answer.text(errors="replace")), path
+            assert (await box.get("box"))[1]["where"] == [48, 12]
+            async with box.http.ws_connect(f"{box.url}/api/live") as live:
+                assert not EXACT.search(await live.receive_str())
+            await box.pair()
+            assert (await box.get("box"))[1]["where"] == [48.123456, 11.654321]
+            async with box.http.ws_connect(f"{box.url}/api/live") as live:
+                assert (await live.receive_json())["hello"]["box"]["where"] == [48.123456, 11.654321]
+
+    asyncio.run(main())
