@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -139,11 +141,12 @@ def test_root_writes_through_no_link_that_the_service_s_user_has_planted(planted
         planted.file("a")
     planted.link(name, planted.shadow.parent if name == "inner" else planted.shadow)
     planted.shadow.write_text("root's".ljust(BLOCK))
-    for write in (
-        lambda: replace(path, "old", "new"),
-        lambda: write_whole(path, "new"),
-        lambda: write_block(path, "new"),
-    ):
+    writes: tuple[Callable[[], None], ...] = (
+        partial(replace, path, "old", "new"),
+        partial(write_whole, path, "new"),
+        partial(write_block, path, "new"),
+    )
+    for write in writes:
         with suppress(OSError):
             write()
     assert planted.shadow.read_text().strip() == "root's"
