@@ -60,16 +60,13 @@ def start_anew(
         except (ConfigError, HardwareError, LinkError, CommandFailed) as fault:
             if path is None or (app is not None and app.is_ready):
                 raise
-            if ran is None:
-                anew.file = None
-                log.error("%s cannot be used, and the box goes on without a file: %s", path.name, fault)
-            elif good is None or good == text:
+            if ran is not None and (good is None or good == text):
                 raise
-            else:
+            anew.file, anew.refused = ran, str(fault)
+            if good is not None:
                 with WRITING:
                     if text is not None:
                         write_whole(path.with_name(path.name + REFUSED), text, like=path)
                     write_whole(path, good)
-                log.error("the new %s cannot be used, and the one before it is back: %s", path.name, fault)
-            anew.refused = str(fault)
+            log.error("the new %s cannot be used, and the box goes on as before it: %s", path.name, fault)
             run(make())

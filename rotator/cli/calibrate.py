@@ -29,7 +29,7 @@ from rotator.calibrating.sky_table import Residuals
 from rotator.cli.announced import announced
 from rotator.cli.calibrate_screens import LivePicture, PlainLines, wrapped
 from rotator.cli.failed import CommandFailed
-from rotator.cli.faults import list_faults, parse_faults
+from rotator.cli.faults import fault_names, parse_faults
 from rotator.cli.reach import connected, consoles
 from rotator.cli.run import make_sure_of
 from rotator.cli.screen import log_to, stop_on_signals
@@ -47,12 +47,12 @@ from rotator.views.residual_svg import residual_svg
 
 def calibrate_axes(path: Path | None, faults: tuple[str, ...], task: str | None, *, plain: bool) -> int:
     """`task`: an axis, `north`, or None for both axes. The exit code: 0 when everything has been set up."""
-    list_faults(faults, path)
+    chosen = parse_faults(faults, fault_names(path)) if faults else []
     config = load(path)
     _refuse_beside_running_box(config, path)
     _refuse_stopped(config, path)
     tasks = [axis.value for axis in Axis] if task is None else [task]
-    return asyncio.run(_run(config, path, faults, tasks, plain=plain))
+    return asyncio.run(_run(config, path, chosen, tasks, plain=plain))
 
 
 def calibrate_sky(
@@ -69,7 +69,7 @@ def calibrate_sky(
 
     `receiver`: the address of its rigctld, or `sim`; None: a person finds the target. `svg`: the picture of the points.
     """
-    list_faults(faults, path)
+    chosen = parse_faults(faults, fault_names(path)) if faults else []
     config = load(path)
     if config.rotor.hardware != "sim" and at_s is not None:
         raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
@@ -91,14 +91,14 @@ def calibrate_sky(
     except (Unknown, NotThere, BadAddress) as reason:
         raise CommandFailed(str(reason)) from None
     return asyncio.run(
-        _run(config, path, faults, [SKY], plain=plain, target=target, utc=utc, receiver=receiver, svg=svg)
+        _run(config, path, chosen, [SKY], plain=plain, target=target, utc=utc, receiver=receiver, svg=svg)
     )
 
 
 async def _run(
     config: Config,
     path: Path | None,
-    faults: tuple[str, ...],
+    faults: list[tuple[float, str]],
     tasks: list[str],
     *,
     plain: bool,
@@ -135,9 +135,9 @@ def _draw(shown: Residuals, svg: Path, screen: PlainLines | LivePicture) -> None
         screen.show(f"The points are drawn in {svg}.")
 
 
-def _inject(faults: tuple[str, ...], station: Station) -> None:
+def _inject(faults: list[tuple[float, str]], station: Station) -> None:
     """Inject the faults of the option --fault into the simulator."""
-    for at_s, name in parse_faults(faults, station.world):
+    for at_s, name in faults:
         assert station.world is not None, "parse_faults refuses faults on real hardware"
         asyncio.get_running_loop().call_later(at_s, station.world.inject, name)
 

@@ -9,7 +9,6 @@ import re
 import time
 from collections.abc import Collection
 from pathlib import Path
-from typing import Protocol
 
 import click
 
@@ -19,39 +18,29 @@ from rotator.config.load import load
 _SECONDS = re.compile(r"[0-9]{1,6}(?:[.,][0-9]{0,6})?")
 
 
-class FaultInjector(Protocol):
-    """The part of a simulated rotor that this option needs."""
-
-    @property
-    def faults(self) -> Collection[str]:
-        """The names of the faults that it can have."""
+def fault_names(path: Path | None) -> Collection[str] | None:
+    """Those of the simulated rotor of this file; None: it is a real one. Whether its box runs does not count."""
+    config = load(path)
+    return simulated_rotor(config, time.monotonic, None, (0.0, 0.0)).faults if config.rotor.hardware == "sim" else None
 
 
-def list_faults(texts: tuple[str, ...], path: Path | None) -> None:
-    """Where `list` is among the texts: print the names and end the program. It minds no box that runs."""
-    if "list" in texts:
-        config = load(path)
-        simulated = config.rotor.hardware == "sim"
-        parse_faults(texts, simulated_rotor(config, time.monotonic, None, (0.0, 0.0)) if simulated else None)
-
-
-def parse_faults(texts: tuple[str, ...], world: FaultInjector | None) -> list[tuple[float, str]]:
+def parse_faults(texts: tuple[str, ...], names: Collection[str] | None) -> list[tuple[float, str]]:
     """`name@seconds` to (seconds, name); without seconds the fault begins at once.
 
     `list` among the texts prints the names and ends the program. Raises click.UsageError for an unknown name, and
-    where `world` is None: there is no simulator.
+    where `names` is None: there is no simulator.
     """
     if not texts:
         return []
-    if world is None:
+    if names is None:
         raise click.UsageError("--fault is for the simulator; this configuration drives real hardware")
     if "list" in texts:
-        click.echo("\n".join(sorted(world.faults)))
+        click.echo("\n".join(sorted(names)))
         raise SystemExit(0)
     plan = []
     for text in texts:
         name, at, moment = text.partition("@")
-        if name not in world.faults:
+        if name not in names:
             raise click.UsageError(f"no fault called {name}; --fault list shows them")
         if at and not _SECONDS.fullmatch(moment):
             raise click.UsageError(f"{text}: after @ stands the moment in seconds, such as {name}@20")

@@ -11,10 +11,9 @@ import json
 import logging
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import astuple, fields
-from functools import partial
 from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -23,7 +22,7 @@ import click
 
 from rotator.assembly.settings import build_mount
 from rotator.cli.failed import FAULTY, CommandFailed
-from rotator.cli.faults import FaultInjector, parse_faults
+from rotator.cli.faults import parse_faults
 from rotator.cli.utc import day_and_time
 from rotator.config.axes import AxisTable
 from rotator.config.load import load
@@ -97,7 +96,7 @@ def rehearse_pass(
         config,
         via=via,
         arduino=arduino,
-        faults=partial(_faults, faults, flown),
+        faults=lambda world: _faults(faults, flown, world.faults),
         utc_s=None if target else at_s,
         target=tracked,
     )
@@ -182,9 +181,9 @@ def _sentence(flown: Pass, summary: Summary, *, arduino: bool) -> str:
     )
 
 
-def _faults(texts: tuple[str, ...], flown: Pass, world: FaultInjector) -> list[tuple[float, str]]:
+def _faults(texts: tuple[str, ...], flown: Pass, names: Collection[str]) -> list[tuple[float, str]]:
     """Raises click.UsageError also for a fault that would begin after the pass."""
-    plan = parse_faults(texts, world)
+    plan = parse_faults(texts, names)
     for at_s, name in plan:
         if at_s >= flown.end_s:
             raise click.UsageError(f"{name}@{at_s:g}: {flown.name} ends after {flown.end_s:.0f} s")

@@ -25,7 +25,7 @@ from rotator.box.app import App
 from rotator.cli.anew import restored, start_anew, text_of
 from rotator.cli.announced import announced, boxes
 from rotator.cli.failed import CommandFailed
-from rotator.cli.faults import list_faults, parse_faults
+from rotator.cli.faults import fault_names, parse_faults
 from rotator.cli.foreground import in_front
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.reach import connected
@@ -47,7 +47,7 @@ PAGE_LOOKS = 30
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
-    list_faults(faults, path)
+    chosen = parse_faults(faults, fault_names(path)) if faults else []
     use_one_heap()
     allow_enough()
     anew = Anew()
@@ -60,7 +60,6 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     # Before a thread of the app can log above the picture.
     log_to(logging.StreamHandler(cast(TextIO, errors)) if plain else recent)
     try:
-        chosen = parse_faults(faults, app.station.world)
 
         def run(app: App) -> None:
             with nullcontext() if runtime_folder(os.environ) else announced(_monitor(app.config), anew.file):

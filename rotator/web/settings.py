@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import os
 from collections.abc import Callable, Sequence
 from datetime import date
 from functools import partial
@@ -22,7 +21,7 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.setup.answered import fresh
 from rotator.setup.network import open_to
 from rotator.setup.questions import network
-from rotator.web.box_file import ANEW, OWN, STOP, BoxFile, stop_of
+from rotator.web.box_file import ANEW, STOP, BoxFile, stop_of
 from rotator.web.entrance import Entrance, computed, values_of
 from rotator.web.route import COMPUTING, PAIRED, Route, answered, get, post, refusals
 from rotator.web.schema import (
@@ -67,9 +66,7 @@ _MISTAKE = object_of({"text": TEXT, "places": the("the keys that it is about", l
 _SHOWN = {"diff": the("the lines that change", list_of(TEXT)), "mistakes": list_of(_MISTAKE)}
 _SETTINGS = object_of(
     {
-        "file": the("its path; empty: the box runs without one, as the shipped file says", TEXT),
-        "own": the("the file that /api/settings/file makes for a box without one", TEXT),
-        "there": the("that file is there already, and would be used", YES),
+        "file": the("its path; empty: there is none, see /api/settings/file", TEXT),
         "run": the("after each start another one", TEXT),
         "digest": the("of its text", TEXT),
         "values": the("what it says", {"type": "object"}),
@@ -130,8 +127,6 @@ class SettingsApi:
         found = await self._file.settings()
         settings = {
             "file": str(self._file.file or ""),
-            "own": str(OWN.absolute()),
-            "there": os.path.lexists(OWN),
             "run": self._file.run,
             "digest": found.digest,
             "values": found.values,

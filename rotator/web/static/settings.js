@@ -57,8 +57,8 @@ export function Missing({ settings: { file, busy, lost, load, change }, now }) {
   if (lost) return html`<p class="mistake" role="alert">${lost}</p><button type="button" onClick=${load}>Look again</button>`;
   if (file?.file !== "") return html`<p>Reading the file …</p>`;
   const make = () => change("settings/file", { stop: now.status.moving });
-  return html`<p>This box runs without a file, so nothing can be set. ${file.there ? html`<code>${file.own}</code> is there already, and can be used.` : html`It gets <code>${file.own}</code>, and starts anew with it in a few seconds.`} Later, by hand: <code>rotator run --config rotator.toml</code>.${now.status.moving && html` <b>The antenna moves: it stops.</b>`}</p>
-    <button type="button" class="go" disabled=${busy !== ""} onClick=${make}>${file.there ? "Use this file" : "Make a file"}</button> <span role="status">${busy}</span>`;
+  return html`<p>This box runs without a file, so nothing can be set. It gets <code>rotator.toml</code> in the folder where it was started, or takes the one that is there, and starts anew with it in a few seconds. Later, by hand: <code>rotator run --config rotator.toml</code>.${now.status.moving && html` <b>The antenna moves: it stops.</b>`}</p>
+    <button type="button" class="go" disabled=${busy !== ""} onClick=${make}>Make a file</button> <span role="status">${busy}</span>`;
 }
 
 /** Whether the box has a file, and it is here. */
