@@ -48,8 +48,7 @@ def build_latch_file(config: Config, memory: Path | None = None) -> LatchFile:
 
 
 def build_modelled_file(config: Config) -> CountsFile | None:
-    """The file with the angles of the axes that only a model knows: the next run begins with them. None: there are
-    none, or the rotor does not outlive the program. An angle that was kept with other settings is not used."""
+    """The file of the angles that only a model knows, kept with these settings. None: none outlives the program."""
     modelled = [axis for axis in Axis if config.angle(axis).source is AngleSource.MODELLED]
     if not modelled or not config.keeps_files:
         return None

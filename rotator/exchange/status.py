@@ -18,7 +18,7 @@ AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
 degrees. Five times: one reading in three million is further off."""
 
 SHOWN_OFF_DEG = 1.0
-"""Degrees: nearer than this to its target, nobody asks why an axis does not turn: programs send whole degrees."""
+"""Degrees: nearer than this to its target, nobody asks why an axis does not turn."""
 JOG_ENDS_DEG = 0.5
 """Degrees: nearer than this to an end of its range, no jog turns an axis towards that end."""
 

@@ -34,7 +34,6 @@ LEARNT_EVERY_S = 600.0
 
 class Autosave:
     """`path`: the configuration file, if there is one. `modelled`: the file of the angles that only a model knows.
-
     `run` while the box runs, `close` when its loop has ended.
 
     Raises nothing: a file that cannot be written is in the log.

@@ -34,10 +34,9 @@ def write_whole(path: Path, content: str | bytes, *, like: Path | None = None, m
 
 
 def write_block(path: Path, content: str) -> None:
-    """Overwrite the file's one block, filled up with blanks: neither folder nor file system has anything to note.
+    """Overwrite the file's one block in place. A power failure may mix it: the content must have a check sum.
 
-    After a power failure in the middle the block may be a mixture: the content must have a check sum. A file that is no
-    such block yet, or whose replacement was not finished, is replaced as a whole. Raises OSError.
+    A file that is no block yet, or whose replacement was not finished, is replaced as a whole. Raises OSError.
     """
     block = content.encode("utf-8").ljust(BLOCK)
     with under_way(path):
