@@ -38,7 +38,8 @@ def change_of(
     looks = len(leg.flown.errors_deg)
     from_deg, there_deg = before.flown.place(leg.look), leg.flown.place(min(leg.arrival, looks - 1))
     turns_s = abs(there_deg[0] - from_deg[0]) / speeds.azimuth_dps
-    spare_s = (leg.arrival - leg.look) * STEP_S - turns_s
+    # A turn that the end of the path cuts short has no time to spare: it begins at its look.
+    spare_s = max(0.0, (leg.arrival - leg.look) * STEP_S - turns_s)
     change = Change(leg.look * STEP_S + (spare_s / 2 if stepped else 0.0), turns_s, from_deg, there_deg)
     middle = min(round((change.leaves_s + turns_s / 2) / PLAN_STEP_S), len(directions) - 1)
     if not turns_s or directions[middle][1] < LIFTS_FROM_DEG:

@@ -6,14 +6,19 @@ import math
 from itertools import pairwise
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range
-from rotator.control.sky.route import LOST_DEG, STEP_S
-from rotator.control.sky.turning import turned_deg
+from rotator.control.sky.route import LOST_DEG, STEP_S, Flown, Speeds
+from rotator.control.sky.turn_timing import change_of
+from rotator.control.sky.turning import Turning, turned_deg
+from rotator.control.sky.ways import Leg, possible_ways
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan
+from tests.control.sky.test_ways import SATELLITES, SINGLE
 
 LOW = Mount(Range(0.0, 450.0), Range(0.0, 90.0))
 HALF = Mount(Range(0.0, 180.0), Range(0.0, 180.0), flip=True)
@@ -34,6 +39,29 @@ def overhead(beside_deg: float, faster: float = 1.0) -> KnownPath:
         azimuth_deg = (math.degrees(math.atan2(east, north * across)) - 20.0) % 360.0
         rows.append((second / faster, azimuth_deg, math.degrees(math.asin(up * across))))
     return KnownPath(tuple(rows))
+
+
+@given(
+    path=SATELLITES,
+    mount=st.sampled_from([LOW, HALF, SINGLE]),
+    speeds=st.builds(Speeds, st.floats(0.2, 30.0), st.floats(0.2, 30.0)),
+    stepped=st.booleans(),
+    leaves=st.floats(0.0, 1.0),
+    begun=st.floats(0.0, 1.0),
+)
+def test_no_turn_begins_before_its_look_also_where_the_end_of_the_pass_cuts_it_short(
+    path: KnownPath, mount: Mount, speeds: Speeds, stepped: bool, leaves: float, begun: float
+) -> None:
+    """A moment before the path's first would be an index from its end: an IndexError, or elevation's last angles."""
+    begin_s = path.begin_s + begun * (path.end_s - path.begin_s)
+    looks, directions = path.directions(begin_s, STEP_S), path.directions(begin_s, PLAN_STEP_S)
+    look = int(leaves * (len(looks) - 1))
+    ways = [Flown(mount, looks, way) for way in possible_ways(mount, looks[0])]
+    for here, there in pairwise(ways):
+        arrival = Turning(mount, looks, speeds).change(here, there, look)
+        legs = Leg(0, min(look, 1), here), Leg(look, arrival, there)
+        change = change_of(mount, directions, legs, speeds, stepped=stepped)
+        assert change.leaves_s >= max(0.0, (look - 1) * STEP_S)
 
 
 @pytest.mark.parametrize("beside_deg", [3.0, 5.0, 7.0])
