@@ -48,14 +48,16 @@ def where(path: Path | None, *, as_json: bool) -> int:
 def resume(path: Path | None) -> None:
     """Release the antenna. Raises CommandFailed for a fault whose cause is still there."""
     with RunningBox(path) as box:
-        parks = box.status()["storm_park"]
+        before = box.status()
         box.order("resume")
         time.sleep(LOOK_S)
         after = box.status()
     if failed := faults(after):
         raise CommandFailed("\n         ".join(("the cause is still there:", *failed)), FAULTY)
     click.echo("The antenna may move again.")
-    if parks and after["moving"]:
+    if (target := before["tracks"]) and not before["stopped_by"] and not target["recognised"]:
+        click.echo(f"It goes on with {target['name']}.")
+    if before["storm_park"] and after["moving"]:
         click.echo("It still goes to its park position; `rotator stop` ends that.")
 
 

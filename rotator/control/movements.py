@@ -193,7 +193,7 @@ class Movements:
         """Faults are acknowledged, and nothing moves before the next order. Returns the axes for which it counts."""
         if self.faulted:
             # The order that was in force when the fault came is not taken up again.
-            self._aiming.drop()
+            self._aiming.drop(self.faulted)
         self._idle.ended()
         return [axis for axis, control in self._axes.items() if control.acknowledge(now_s, by_person=by_person)]
 

@@ -35,7 +35,9 @@ class AxisStatus:
     """The sensor's own reading, for calibration."""
     source: AngleSource = AngleSource.MEASURED
     target_deg: float | None = None
-    """The ordered axis angle; None: no target."""
+    """The axis angle that it goes to, or has reached; None: no target."""
+    missed_deg: float | None = None
+    """The target that a fault has ended, until a stop, a release or another order comes; None: none was ended."""
     tolerance_deg: float | None = None
     """The distance from the target that counts as reached; None: no target."""
     drive: Direction = Direction.OFF
@@ -92,6 +94,17 @@ class AxisStatus:
             return False
         off_deg = abs(self.angle_deg - self.target_deg)
         return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
+
+    @property
+    def ordered_deg(self) -> float | None:
+        """The axis angle last ordered, whether it can go there or a fault keeps it from there; None: no order."""
+        return self.missed_deg if self.target_deg is None else self.target_deg
+
+    @property
+    def off_deg(self) -> float | None:
+        """How far it would have to turn to what was ordered; clockwise or up is positive. None: no order, or no
+        angle."""
+        return None if self.ordered_deg is None or self.shown_deg is None else self.ordered_deg - self.shown_deg
 
     def at_end(self, direction: Direction) -> bool:
         """Whether the axis surely stands where no jog turns it further in this direction."""

@@ -178,6 +178,8 @@ def _stands(status: Status, axis: Axis) -> str:
     words = ["not known" if now.shown_deg is None else f"{_shown(now.shown_deg)} {known}"]
     if now.target_deg is not None:
         words.append(f"to {_shown(now.target_deg)}")
+    elif now.off_deg is not None:
+        words.append(f"{_shown(abs(now.off_deg))} off what was ordered")
     if now.homing:
         words.append("homing: turns to its end stop")
     if now.drive:

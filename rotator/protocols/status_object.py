@@ -48,6 +48,8 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("angle_source", "text", '"measured", "counted" or "modelled"', lambda axis: axis.source.value),
     Field("target_deg", "number or null", "the angle that it turns to",
           lambda axis: _angle(axis.target_deg)),
+    Field("ordered_deg", "number or null", "the angle last ordered, also while a fault keeps it from there",
+          lambda axis: _angle(axis.ordered_deg)),
     Field("at_target", "boolean", "it stands, near enough to its target",
           lambda axis: axis.at_target),
     Field("moving", "boolean", "it turns, or still coasts", lambda axis: axis.moving),

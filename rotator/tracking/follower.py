@@ -14,7 +14,7 @@ from typing import Protocol
 
 from rotator.control.rights import QUIET, deed_of
 from rotator.control.sky.flight_plan import Antenna
-from rotator.exchange.orders import Aim, GiveBack, Mode, Order
+from rotator.exchange.orders import Aim, GiveBack, Mode, Order, Release
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status, time_left
 from rotator.orbits.catalogue import Unknown
@@ -80,8 +80,10 @@ class Follower:
 
     def heard(self, source: Source, order: Order) -> None:
         """An order of any sender. When a person gives the antenna back, the plan goes on at once."""
-        # The tracker orders an Aim only where a person asked for a direction; a flight is its own.
-        if (source != TRACK or isinstance(order, Aim)) and deed_of(order) not in QUIET:
+        # The tracker orders an Aim only where a person asked for a direction; a flight is its own. A release after a
+        # fault lets the plan go on too.
+        goes_on = isinstance(order, Release) and not self._box.status().latched
+        if (source != TRACK or isinstance(order, Aim)) and deed_of(order) not in QUIET and not goes_on:
             rest_s = 0.0 if isinstance(order, GiveBack) else REST_S
             with self._lock:
                 self._rests_until_s = self._box.status().at_s + rest_s

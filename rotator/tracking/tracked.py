@@ -103,6 +103,8 @@ class Tracked:
     """When the tracker last ordered a motion, on the loop's clock. The status may not show it yet."""
     follows: bool = True
     """Whether the plan of many passes may be flown: `Tracker.off` forbids it, `Tracker.follow_plan` allows it again."""
+    released: bool = False
+    """Whether a person has let it go on after a fault, since the flight was ordered: then it is planned anew."""
     of_plan: bool = False
     """Whether the latest motion that the tracker ordered is of that plan."""
 
@@ -132,10 +134,17 @@ class Tracked:
 
     def reason_to_end(self, status: Status, now: Now) -> str:
         """Why the tracking ends now; empty: it goes on."""
-        return self.held or (self.request.flown.lost(status, now) if self.request.flown else "")
+        if self.held or self.request.flown is None or self._dropped(status):
+            return self.held
+        return self.request.flown.lost(status, now)
 
-    def plan_is_due(self, now: Now) -> bool:
-        return not self.looks_again and (self.request.flown is None or self.request.flown.is_over(now))
+    def plan_is_due(self, status: Status, now: Now) -> bool:
+        flown = self.request.flown
+        return not self.looks_again and (flown is None or flown.is_over(now) or self._dropped(status))
+
+    def _dropped(self, status: Status) -> bool:
+        """Whether the release after a fault has ended the flight, which the person wants to go on."""
+        return self.released and status.flown is None
 
     # --- what changes it
 
@@ -163,6 +172,10 @@ class Tracked:
         """Another sender has ended the tracking with this order. The first one counts."""
         return replace(self, held=self.held or f"{source} {_did(order)}")
 
+    def goes_on(self) -> Tracked:
+        """A person has let the antenna go on after a fault."""
+        return replace(self, released=True)
+
     def ordered(self, at_s: float, *, of_plan: bool = False) -> Tracked:
         """The tracker has ordered a motion."""
         return replace(self, ordered_s=at_s, of_plan=of_plan)
@@ -170,7 +183,7 @@ class Tracked:
     def flies(self, flown: Flown) -> Tracked:
         """The request has its plan, and the flight has been ordered."""
         request = replace(self.request, flown=flown)
-        return replace(self, request=request, before=NOTHING, mover=str(TRACK))
+        return replace(self, request=request, before=NOTHING, mover=str(TRACK), released=False)
 
     def cannot_be_planned(self, reason: str) -> Tracked:
         """The tracking before the request goes on. If there is none, this is the end."""
@@ -183,10 +196,13 @@ class Tracked:
 
 
 def ends_tracking(order: Order, status: Status) -> bool:
-    """Whether this order of another sender ends the tracking. `status`: before the order."""
+    """Whether this order of another sender ends the tracking. `status`: before the order.
+
+    A release after a fault does not: to go on is what the person says.
+    """
     match order:
         case Release():
-            return bool(status.latched or status.faults)
+            return bool(status.latched)
         case Stop() | SetMode() | LetGo() | Take(stops=True) | Park(storm=True):
             return True
         case _:
@@ -201,7 +217,7 @@ def _did(order: Order) -> str:
         case LetGo():
             return "took the torque from the motors"
         case Release():
-            return "let it go on after a stop or a fault"
+            return "let it go on after a stop"
         case Take():
             return "took the antenna"
         case Park():

@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 from rotator.control.sky.timed_table import TimedTable
 from rotator.exchange.flight_order import Fly
-from rotator.exchange.orders import BOTH, Aim, Order, Stop
+from rotator.exchange.orders import BOTH, Aim, Order, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
@@ -80,9 +80,13 @@ class Tracker:
 
     def heard(self, source: Source, order: Order) -> None:
         """An order of any sender. After a stop nothing begins again by itself, not even a plan in work."""
-        if source != TRACK and ends_tracking(order, self._box.status()):
+        status = self._box.status()
+        if source != TRACK and ends_tracking(order, status):
             with self._lock:
                 self._tracked = self._tracked.stopped(source, order)
+        elif isinstance(order, Release) and status.faults:
+            with self._lock:
+                self._tracked = self._tracked.goes_on()
 
     # --- from a console
 
@@ -205,9 +209,10 @@ class Tracker:
             tracked = self._tracked
         if not tracked.request.words:
             return
-        if reason := tracked.reason_to_end(self._box.status(), now):
+        status = self._box.status()
+        if reason := tracked.reason_to_end(status, now):
             self._end(tracked.asked, tracked.request.words, reason)
-        elif tracked.plan_is_due(now):
+        elif tracked.plan_is_due(status, now):
             self._fly(tracked.request, tracked.asked, now)
 
     def _fly(self, request: Request, asked: int, now: Now) -> None:

@@ -59,8 +59,8 @@ def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]
         (axis.value, each.shown_deg, _filled(bar, each), Text.assemble(one, " ", other), ranks.numbers),
         (
             "target",
-            each.target_deg,
-            bar.filled_to(each.target_deg, TARGET_STYLE, names=True),
+            each.ordered_deg,
+            bar.filled_to(each.ordered_deg, TARGET_STYLE, names=True),
             _worth(each),
             worth_rank,
         ),
@@ -68,7 +68,7 @@ def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]
     for name, angle_deg, filled, beside, row_rank in rows:
         text = Text(f"{name:<9} {degrees(angle_deg):>7} ", style="bold" if name == axis.value else "")
         yield Row(Text.assemble(text, "▕", filled, "│ ", beside), row_rank)
-    off = Text(f"{'off by':<9} {degrees(_off_deg(each), sign=True) if each.target_deg is not None else '':>7} ")
+    off = Text(f"{'off by':<9} {degrees(each.off_deg, sign=True) if each.ordered_deg is not None else '':>7} ")
     if stray := by_itself(axis, each):
         off = Text.assemble((f"{stray:<17}", ALARMS), " ")
     yield Row(Text.assemble(off, " ", bar.scale()), ranks.numbers if stray else ranks.scales)
@@ -77,7 +77,7 @@ def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]
 def _narrow(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks, width: int) -> Iterator[Row]:
     yield Row(_in_a_row(axis, each, width), ranks.numbers)
     yield Row(Text.assemble("▕", _filled(bar, each), "│"), ranks.bars)
-    yield Row(Text.assemble("▕", bar.filled_to(each.target_deg, TARGET_STYLE, names=True), "│"), ranks.scales)
+    yield Row(Text.assemble("▕", bar.filled_to(each.ordered_deg, TARGET_STYLE, names=True), "│"), ranks.scales)
     yield Row(Text.assemble(" ", bar.scale()), ranks.scales)
 
 
@@ -88,8 +88,8 @@ def _in_a_row(axis: Axis, each: AxisStatus, width: int) -> Text:
         text = Text(f"{'az' if axis is Axis.AZIMUTH else 'el'} {degrees(each.shown_deg)}", style="bold")
         if stray := by_itself(axis, each):
             text.append(" ").append(stray, style=ALARMS)
-        elif each.seen and each.target_deg is not None:
-            text.append(f" → {degrees(each.target_deg)}").append(f" {off}{degrees(_off_deg(each), sign=True)}")
+        elif each.seen and each.ordered_deg is not None:
+            text.append(f" → {degrees(each.ordered_deg)}").append(f" {off}{degrees(each.off_deg, sign=True)}")
         if each.drive is not Direction.OFF:
             text.append(f" {TURNS[axis, each.drive]}", style="bold green")
         worth = _worth(each)
@@ -110,11 +110,6 @@ def _worth(each: AxisStatus) -> Text:
 
 def _filled(bar: Bar, each: AxisStatus) -> Text:
     return bar.filled_to(each.angle_deg, ANTENNA_STYLE if each.seen else "dim")
-
-
-def _off_deg(each: AxisStatus) -> float | None:
-    """How far the axis has to turn; positive: clockwise or up."""
-    return None if each.target_deg is None or each.shown_deg is None else each.target_deg - each.shown_deg
 
 
 def _bar(status: Status, axis: Axis, mount: Mount | None, cells: int) -> Bar:

@@ -41,17 +41,17 @@ def pointing(status: Status) -> Way | None:
 
 
 def aimed_at(status: Status) -> Way | None:
-    """The wanted direction: each axis at its target, or at its place if it has none. None: no axis has a target.
+    """The wanted direction: each axis where it was ordered, or at its place if it has no order. None: no axis has one.
 
     In a planned pass it is the satellite's direction, because there a target is the next place of rest.
     """
     azimuth, elevation = status.azimuth, status.elevation
-    if azimuth.target_deg is None and elevation.target_deg is None:
+    if azimuth.ordered_deg is None and elevation.ordered_deg is None:
         return None
     if status.flown and status.wanted_azimuth_deg is not None and status.wanted_elevation_deg is not None:
         return direction(status.wanted_azimuth_deg, status.wanted_elevation_deg)
     azimuth_deg, elevation_deg = (
-        axis.points_deg if axis.target_deg is None else axis.target_deg + axis.correction_deg
+        axis.points_deg if axis.ordered_deg is None else axis.ordered_deg + axis.correction_deg
         for axis in (azimuth, elevation)
     )
     return None if azimuth_deg is None or elevation_deg is None else direction(azimuth_deg, elevation_deg)

@@ -91,7 +91,8 @@ def _at_rest(status: Status) -> tuple[str, str]:
     lost = [axis for axis in Axis if status.axis(axis).target_deg is None and status.wanted_deg(axis) is not None]
     if not lost:
         return "ON TARGET", GOOD
-    there = next(axis for axis in Axis if axis not in lost)
+    if (there := next((axis for axis in Axis if axis not in lost), None)) is None:
+        return "AT REST", PLAIN
     return f"{there.value.upper()} ON TARGET, {lost[0].value.upper()} AT REST", PLAIN
 
 
@@ -156,6 +157,8 @@ def release(status: Status) -> str:
             return f"Repaired? rotator {command.replace('AXIS', fault.axis.value)}, then resume"
     if all(fault.passing for fault in status.faults):
         return RELEASE_LATER if status.latched else PASSES
+    if status.flown is not None and not status.recognised:
+        return f"{RELEASE_FAULT}; {status.flown.name} is tracked on"
     return RELEASE_FAULT
 
 

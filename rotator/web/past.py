@@ -43,8 +43,8 @@ class Past:
 
 
 def target_deg(axis: AxisStatus) -> float | None:
-    """The target of an axis, on its own scale as the antenna points; None: no target."""
-    return None if axis.target_deg is None else axis.target_deg + axis.correction_deg
+    """What was ordered of an axis, on its own scale as the antenna points; None: no order."""
+    return None if axis.ordered_deg is None else axis.ordered_deg + axis.correction_deg
 
 
 def _aims(status: Status) -> tuple[float | None, float | None]:

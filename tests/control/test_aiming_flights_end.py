@@ -21,6 +21,8 @@ from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly
 from rotator.exchange.orders import Aim, Jog, LetGo, Order, Release, Stop
 from rotator.exchange.sources import TRACKER, Source
 from rotator.exchange.status import Status
+from rotator.views.sky_plot import off_deg
+from tests.control.conftest import LOW_RAW
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 TRACK, CONSOLE, OTHER = Source(TRACKER), Source("console"), Source("rotctld", 1)
@@ -103,6 +105,32 @@ def test_after_a_fault_and_resume_neither_axis_flies_on(either: Any, axis: Axis)
     either.step(Release(), by=CONSOLE)
     assert either.status.flown is None
     assert max(turned_deg(either, 100.0)) < COASTS_DEG
+
+
+@pytest.mark.parametrize("ended_by", [Stop(), Release(), Jog(AZ, Direction.PLUS, 0.1), Aim(110.0, 20.0)], ids=str)
+@pytest.mark.parametrize("runs_deg", [0.0, -20.0])
+def test_what_was_ordered_stays_shown_through_a_fault_until_a_person_or_an_order_ends_it(
+    either: Any, runs_deg: float, ended_by: Order
+) -> None:
+    """A stalled motor stands, and one with a welded relay runs on: neither looks as if it were on target."""
+    raw = either.raw(AZ) if hasattr(either, "raw") else either.angle_deg[AZ]
+    raw_per_deg = (either.raw(AZ) - LOW_RAW) / 100.0 if hasattr(either, "raw") else 1.0
+    either.instead[AZ] = raw
+    either.step(Aim(170.0, 10.0))
+    either.run(10.0)
+    for _ in range(100):
+        either.instead[AZ] += runs_deg / 100 * raw_per_deg
+        either.step()
+    status = either.status
+    assert status.azimuth.fault is not None
+    assert (status.wanted_azimuth_deg, status.wanted_elevation_deg) == (170.0, 10.0)
+    assert (status.azimuth.target_deg, status.azimuth.ordered_deg) == (None, 170.0)
+    assert status.azimuth.off_deg == pytest.approx(70.0 - runs_deg, abs=2.0)
+    assert off_deg(status) == pytest.approx(70.0 - runs_deg, rel=0.1)
+    either.step(ended_by, by=CONSOLE)
+    either.run(0.1)
+    assert either.status.azimuth.ordered_deg == (110.0 if isinstance(ended_by, Aim) else None)
+    assert either.status.wanted_azimuth_deg == (110.0 if isinstance(ended_by, Aim) else None)
 
 
 def test_after_a_fault_and_resume_a_stream_stands_where_it_pointed_last(desk: Any) -> None:

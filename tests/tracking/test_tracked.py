@@ -60,10 +60,10 @@ def asked(words: str, before: Tracked | None = None, mover: str = "") -> Tracked
 
 def test_a_request_is_planned_then_flown_then_ended() -> None:
     wanted = asked("iss")
-    assert (wanted.text(status(0.0)), wanted.plan_is_due(now(0.0))) == ("planning", True)
+    assert (wanted.text(status(0.0)), wanted.plan_is_due(status(0.0), now(0.0))) == ("planning", True)
     flies = wanted.flies(flown("ISS"))
     assert (flies.text(status(0.0)), flies.text(status(TAKES_EFFECT_S))) == ("planning", "tracking")
-    assert not flies.plan_is_due(now(10.0))
+    assert not flies.plan_is_due(status(10.0), now(10.0))
     assert flies.ends("it is enough").text(status(10.0)) == "ended: it is enough"
 
 
@@ -99,6 +99,7 @@ def test_these_orders_end_it_and_the_first_is_named(order: Order, said: str) -> 
 
 
 def test_a_release_ends_it_only_where_it_released_something() -> None:
+    """A release after a fault is no end: to go on is what the person says."""
     assert not ends_tracking(Release(), status(0.0))
     assert ends_tracking(Release(), status(0.0, latched="panel"))
 
@@ -148,7 +149,7 @@ def test_the_tracker_moves_it_from_its_order_on() -> None:
 
 def test_new_files_are_waited_for() -> None:
     waits = Tracked().requested(Request("new"), "", follows=True, looks_again=True)
-    assert (waits.plan_is_due(now(0.0)), waits.with_new_files().plan_is_due(now(0.0))) == (False, True)
+    assert (waits.plan_is_due(status(0.0), now(0.0)), waits.with_new_files().plan_is_due(status(0.0), now(0.0))) == (False, True)
 
 
 def test_the_plan_of_many_passes_has_the_antenna_while_nothing_else_is_tracked() -> None:

@@ -170,17 +170,59 @@ def test_the_end_names_the_sender_and_its_order(rise: Box, source: Source, order
     assert rise.tracker.state == f"ended: {source} {said}"
 
 
-def test_after_a_fault_that_a_person_has_acknowledged_nothing_goes_on(rise: Box) -> None:
+def broken(box: Box, fault: str = "azimuth-pot-open") -> None:
+    """A pot's wire breaks for some seconds."""
+    box.wait(5.0)
+    box.world.inject(fault)
+    box.wait(5.0)
+    assert box.loop.status.faults
+    box.world.clear(fault)
+    box.wait(1.0)
+
+
+@pytest.mark.parametrize("fault", ["azimuth-pot-open", "elevation-pot-open"])
+def test_go_on_after_a_fault_goes_on_with_what_was_tracked(rise: Box, fault: str) -> None:
     assert rise.tracker.track("iss") == ""
-    rise.wait(5.0)
-    rise.world.inject("azimuth-pot-open")
-    rise.wait(5.0)
-    assert rise.loop.status.faults
-    rise.world.clear("azimuth-pot-open")
+    broken(rise, fault)
     rise.loop.post(PERSON, Release())
     rise.wait(5.0)
-    assert rise.tracker.state == "ended: console#1 let it go on after a stop or a fault"
-    assert not rise.loop.status.moving
+    assert rise.tracker.state == "tracking"
+    assert rise.loop.status.flown is not None
+    assert rise.loop.status.azimuth.target_deg is not None
+    assert rise.loop.status.elevation.target_deg is not None
+
+
+def test_go_on_after_a_fault_goes_on_with_the_plan_of_many_passes() -> None:
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    box = Box(found.aos_s + 30.0, follow="[[sky.follow]]\nname = 'iss'\n")
+    broken(box)
+    box.loop.post(PERSON, Release())
+    box.wait(5.0)
+    assert box.loop.status.flown is not None
+    assert box.loop.status.azimuth.target_deg is not None
+
+
+@pytest.mark.parametrize("orders", [[(PC, Stop(BOTH))], [(PERSON, Stop(latch=True)), (PERSON, Release())]])
+def test_a_stop_after_a_fault_ends_the_tracking(rise: Box, orders: list[tuple[Source, Order]]) -> None:
+    assert rise.tracker.track("iss") == ""
+    broken(rise)
+    for source, order in orders:
+        rise.loop.post(source, order)
+        rise.loop.cycle()
+    rise.wait(5.0)
+    assert rise.tracker.state == f"ended: {orders[0][0]} stopped it"
+    assert rise.loop.status.flown is None
+
+
+def test_after_a_fault_a_program_that_took_the_antenna_keeps_it(rise: Box) -> None:
+    assert rise.tracker.track("iss") == ""
+    broken(rise)
+    rise.loop.post(PERSON, Release())
+    rise.loop.post(PC, Aim(100.0, 10.0))
+    rise.wait(5.0)
+    assert rise.loop.status.flown is None
+    assert rise.loop.status.controlled_by == str(PC)
 
 
 def test_resume_where_nothing_was_stopped_ends_no_tracking(rise: Box) -> None:

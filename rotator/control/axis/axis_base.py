@@ -29,6 +29,8 @@ class AxisBase(ABC, Generic[Settings]):
     def __init__(self, settings: Settings, fastest_dps: float) -> None:
         self._settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
+        self._ordered: AimGoal | None = None
+        """The target last ordered. A fault ends the goal, but not this: only a person or an order does."""
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
         self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition = NORMAL
@@ -91,16 +93,16 @@ class AxisBase(ABC, Generic[Settings]):
         return isinstance(self._goal, HomeGoal)
 
     def aim(self, goal: AimGoal) -> None:
-        self._goal = goal
+        self._goal = self._ordered = goal
 
     def nudged(self) -> None:
         """A drive that takes an angle goes there anyway."""
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
-        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing, held=held)
+        self._goal, self._ordered = jog(direction, seconds, now_s, commissioned=not self.missing, held=held), None
 
     def halt(self) -> None:
-        self._goal = None
+        self._goal = self._ordered = None
 
     def forget_path(self) -> None:
         if isinstance(self._goal, AimGoal):
@@ -141,6 +143,7 @@ class AxisBase(ABC, Generic[Settings]):
             raw=sensing.raw,
             source=self._settings.source,
             target_deg=aiming.target_deg if aiming else None,
+            missed_deg=self._ordered.target_deg if self._ordered and not aiming else None,
             tolerance_deg=aiming.tolerance_deg if aiming else None,
             drive=drive,
             moving=self.moving(now_s),

@@ -104,7 +104,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
     def home(self) -> None:
         if self._settings.homing is None:
             raise Refused(needs_no_homing(self._settings.axis.value))
-        self._goal = HomeGoal(Homing(self._settings.homing))
+        self._goal, self._ordered = HomeGoal(Homing(self._settings.homing)), None
 
     def see(self, reading: Reading, now_s: float) -> None:
         scale, self._scale = self._scale, reading.condition.scale

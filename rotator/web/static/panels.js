@@ -83,7 +83,7 @@ function Troubles({ now, paired, say }) {
   const faults = [now.status.azimuth.fault, now.status.elevation.fault].filter(Boolean);
   if (!now.stopper && !faults.length) return null;
   const again = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(resume(now), say)}>
-    ${now.stopper ? "Let it move again" : "Repaired: go on"}</button>`;
+    ${now.stopper ? "Let it move again" : `Repaired: go on${now.status.tracks && !now.status.tracks.recognised ? ` with ${now.status.tracks.name}` : ""}`}</button>`;
   return html`<section class="troubles" role="alert" aria-label="What is wrong">
     ${faults.map((fault) => html`<p><b>${fault.act_now ? "Act now" : "Fault"}:</b> ${fault.text}</p>`)}
     ${now.stopper && html`<p><b>Stopped by ${now.stopper}.</b> Nothing moves until a person lets it.</p>`}
