@@ -79,6 +79,9 @@ class Movements:
                 return
             case Jog(axis):
                 self._aiming.forget((axis,))
+                if source.is_person:
+                    # It is steered by hand now. A program turns one axis, as with `R` of GS-232.
+                    self._aiming.halt(tuple(each for each, other in self._axes.items() if other.aiming))
                 self._jogs.begin(order, source, now_s)
                 moved = (axis,)
             case Home(axis):

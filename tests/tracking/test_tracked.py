@@ -149,7 +149,10 @@ def test_the_tracker_moves_it_from_its_order_on() -> None:
 
 def test_new_files_are_waited_for() -> None:
     waits = Tracked().requested(Request("new"), "", follows=True, looks_again=True)
-    assert (waits.plan_is_due(status(0.0), now(0.0)), waits.with_new_files().plan_is_due(status(0.0), now(0.0))) == (False, True)
+    assert (waits.plan_is_due(status(0.0), now(0.0)), waits.with_new_files().plan_is_due(status(0.0), now(0.0))) == (
+        False,
+        True,
+    )
 
 
 def test_the_plan_of_many_passes_has_the_antenna_while_nothing_else_is_tracked() -> None:

@@ -46,13 +46,13 @@ def overhead(beside_deg: float, faster: float = 1.0) -> KnownPath:
     mount=st.sampled_from([LOW, HALF, SINGLE]),
     speeds=st.builds(Speeds, st.floats(0.2, 30.0), st.floats(0.2, 30.0)),
     stepped=st.booleans(),
-    leaves=st.floats(0.0, 1.0),
-    begun=st.floats(0.0, 1.0),
+    shares=st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)),
 )
 def test_no_turn_begins_before_its_look_also_where_the_end_of_the_pass_cuts_it_short(
-    path: KnownPath, mount: Mount, speeds: Speeds, stepped: bool, leaves: float, begun: float
+    path: KnownPath, mount: Mount, speeds: Speeds, stepped: bool, shares: tuple[float, float]
 ) -> None:
     """A moment before the path's first would be an index from its end: an IndexError, or elevation's last angles."""
+    begun, leaves = shares
     begin_s = path.begin_s + begun * (path.end_s - path.begin_s)
     looks, directions = path.directions(begin_s, STEP_S), path.directions(begin_s, PLAN_STEP_S)
     look = int(leaves * (len(looks) - 1))
