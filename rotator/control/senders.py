@@ -93,11 +93,13 @@ class Senders:
         if (sender := self._senders.get(source)) is None:
             return ""
         again = f"orders count again after a pause of {sender.pause_s:g} s"
+        # Not where its program connects for every few orders: its next connection is no new beginning (`left`).
+        anew = ", or on a new connection" if sender.own >= STREAM_ORDERS or not sender.streams else ""
         if (by := sender.taken_by) is not None:
             if (other := self._senders.get(by)) is not None and other.streams:
                 return f"{by} moves the antenna, and both send directions: end one of the two programs ({again})"
-            return f"{by} moves the antenna now; {again}, or on a new connection"
-        return f"{by} has stopped the antenna; {again}, or on a new connection" if (by := sender.stopped_by) else ""
+            return f"{by} moves the antenna now; {again}{anew}"
+        return f"{by} has stopped the antenna; {again}{anew}" if (by := sender.stopped_by) else ""
 
     def streams(self, source: Source) -> bool:
         """Whether `source` sends a stream on its present connection alone."""

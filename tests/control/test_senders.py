@@ -169,7 +169,9 @@ def test_a_program_that_connects_for_each_order_stays_silenced_on_the_next_one(s
         senders.left(Source("rotctld", number), float(number))
     senders.stop(ONE, 4.5)
     senders.note(Source("rotctld", 5), 5.0, HERE)
-    assert senders.silence(Source("rotctld", 5)) != ""
+    assert senders.silence(Source("rotctld", 5)) == (
+        "gs232b#1 has stopped the antenna; orders count again after a pause of 10 s"
+    ), "and not on a new connection, for each of its orders comes on one"
     assert not senders.streams(Source("rotctld", 5)), "on this connection it has sent one"
     senders.note(Source("easycomm2", 5), 5.0, HERE)
     assert senders.silence(Source("easycomm2", 5)) == "", "another link's program"

@@ -13,7 +13,7 @@ from hw.ports import Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.model import Config
-from rotator.exchange.orders import Aim, Jog, Stop
+from rotator.exchange.orders import Aim, Jog, Leave, Stop
 from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
 from tests.runtime.loop_rig import AZ, EL, LINK, LOOK_S, PATIENCE_S, PERIOD_S, Hangs, Relays, Rig, records, running
@@ -150,6 +150,25 @@ def test_it_waits_for_the_cycle_and_no_longer(rig: Rig) -> None:
     with running(loop):
         loop.post(LINK, Jog(AZ, Direction.PLUS), can_wait=True)
         assert relays.come_to(1, 0)
+
+
+def test_a_program_that_connects_for_each_order_has_one_line_in_the_log_and_one_when_it_is_silenced(
+    rig: Rig, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.INFO)
+    for second in range(90):
+        sender = Source("rotctld", second + 1)
+        if second == 45:
+            rig.loop.post(LINK, Stop())
+        rig.loop.post(sender, Aim(300.0 + 0.1 * second, 20.0))
+        rig.loop.act()
+        rig.loop.post(sender, Leave())
+        rig.run(1.0)
+    assert [record.message for record in caplog.records if "rotctld" in record.message] == [
+        "rotctld#1 moves the antenna",
+        "orders from rotctld#46 are ignored: gs232b#1 has stopped the antenna; "
+        "orders count again after a pause of 10 s",
+    ]
 
 
 def test_the_sender_that_moves_it_is_logged_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
