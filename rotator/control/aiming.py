@@ -6,7 +6,7 @@ of senders, of stops that latch, or of faults.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 from hw.ports import Axis
@@ -179,13 +179,17 @@ class Aiming:
             return True
         return False
 
-    def drop(self, faulted: Iterable[Axis]) -> None:
+    def drop(self, faulted: set[Axis]) -> None:
         """Do not repeat or extend the order in force: for these axes it has ended. Another axis keeps its target."""
         self._asked = self._flight = None
         self._pointing.end_stream()
         for axis in faulted:
             self._axes[axis].halt()
-            self._pointing.wanted = replace(self._pointing.wanted, **{f"{axis.value}_deg": None})
+        wanted = self._pointing.wanted
+        self._pointing.wanted = Aim(
+            None if Axis.AZIMUTH in faulted else wanted.azimuth_deg,
+            None if Axis.ELEVATION in faulted else wanted.elevation_deg,
+        )
         self._round.forget_paths()
 
     def end_stream(self) -> None:
