@@ -177,7 +177,11 @@ class SimRotor(Fallible):
 
     def wire_bno055(self, address: int, magnetic_deg: Callable[[float], float]) -> Bno055:
         """Put a BNO055 on the boom. `magnetic_deg` turns the boom's azimuth into the chip's magnetic heading."""
-        chip = Bno055(self._clock, lambda: magnetic_deg(self.antenna()[0]) % 360.0)
+
+        def heading_deg() -> float:
+            return magnetic_deg(self.antenna()[0]) % 360.0
+
+        chip = Bno055(self._clock, heading_deg, pitch_deg=lambda: self.antenna()[1])
         self.faults["steel-near"] = self._fault_of(chip, "hard_iron_deg", HARD_IRON_DEG, 0.0)
         self.wire_i2c("compass", address, chip)
         return chip

@@ -1,8 +1,8 @@
-"""The azimuth's angle by the compass on the boom, after power-on and without a question: `[compass] at_start`.
+"""Where the antenna points by the compass on the boom, after power-on and without a question: `[compass] at_start`.
 
-Knows when the azimuth does not know its angle, what the compass reads meanwhile, and which angles of the range that
-allows. Pure but for the functions at its end, which read the chip in a thread. Moves nothing: it gives the same order
-as a person who confirms an angle, and only where the compass leaves no choice.
+Knows when an axis does not know its angle, what the compass reads meanwhile (the elevation is the boom's tilt, by
+gravity), and which angles of the range that allows. Pure but for the functions at its end, which read the chip in a
+thread. Moves nothing: it gives the same order as a person who confirms an angle, and only where no choice is left.
 """
 
 from __future__ import annotations
@@ -24,14 +24,16 @@ from rotator.calibrating.facts import NorthFacts, north_facts
 from rotator.config.model import Config
 from rotator.exchange.orders import Confirm
 from rotator.exchange.sources import Source
-from rotator.exchange.status import Status
+from rotator.exchange.status import AxisStatus, Status
 from rotator.runtime.loop import ControlLoop
 from rotator.store.compass import CompassFile
 
 log = logging.getLogger(__name__)
 
 IDLE_S = 0.5
-"""How often it looks whether the azimuth knows its angle."""
+"""How often it looks whether the axes know their angles."""
+TILT_DEG = 5.0
+"""The board may lie on the boom this far from level, and the boom may stand this far beyond the range."""
 AGAIN_S = 5.0
 """A confirmation that the controller did not take is tried again after this time."""
 
@@ -46,8 +48,8 @@ class CompassAtStart:
         self._confirmed_s: float | None = None
 
     def wanted(self, status: Status) -> bool:
-        """Whether the azimuth needs the compass now."""
-        if not position_unknown(status.azimuth):
+        """Whether an axis needs the compass now."""
+        if not any(map(position_unknown, (status.azimuth, status.elevation))):
             self._samples.clear()
             self._confirmed_s, self.trouble = None, ""
             return False
@@ -68,13 +70,35 @@ class CompassAtStart:
         self._samples.append(HeadingSample(reading.heading_deg, 0.0, magnetometer, reading.tilt_deg))
         if len(self._samples) < SAMPLES:
             return None
-        angle_deg = self._angle_deg(status)
+        raised = position_unknown(status.elevation)
+        angle_deg = self._elevation_deg(status.elevation) if raised else self._angle_deg(status)
         self._samples.clear()
         if angle_deg is None:
             return None
         self.trouble = ""
+        if raised:
+            return Confirm(Axis.ELEVATION, angle_deg)
         self._confirmed_s = status.at_s
         return Confirm(Axis.AZIMUTH, angle_deg + self._facts.shift_deg)
+
+    def _elevation_deg(self, axis: AxisStatus) -> float | None:
+        """By gravity, on the scale that the box reports. A tilt has no sign, and the zenith may be behind: None."""
+        tilts_deg = [sample.tilt_deg for sample in self._samples]
+        tilt_deg = sum(tilts_deg) / len(tilts_deg)
+        places = [
+            deg
+            for deg in (tilt_deg, -tilt_deg, 180.0 - tilt_deg)
+            if axis.min_deg - TILT_DEG <= deg <= axis.max_deg + TILT_DEG
+        ]
+        if max(tilts_deg) - min(tilts_deg) > TILT_DEG:
+            self.trouble = "the boom swings: let it stand"
+        elif not places or max(places) - min(places) > 2 * TILT_DEG:
+            self.trouble = (
+                f"the boom is tilted by {tilt_deg:.0f}°, which is no single place in its range: confirm which"
+            )
+        else:
+            return min(max(places[0], axis.min_deg), axis.max_deg)
+        return None
 
     def _angle_deg(self, status: Status) -> float | None:
         """On the rotor's own scale; None: the compass leaves a choice, or none, or cannot be believed."""
@@ -101,7 +125,7 @@ class CompassAtStart:
 async def watch(
     compass: CompassReader, start: CompassAtStart, status: Callable[[], Status], confirm: Callable[[Confirm], None]
 ) -> None:
-    """Read the compass whenever the azimuth does not know its angle, until cancelled."""
+    """Read the compass whenever an axis does not know its angle, until cancelled."""
     said = ""
     while True:
         wanted = start.wanted(status())
@@ -109,16 +133,16 @@ async def watch(
             await asyncio.to_thread(compass.read)
             order = start.see(compass.latest, status()) if compass.latest else None
             if order is not None:
-                log.info("compass: the azimuth stands at %.1f°", order.angle_deg)
+                log.info("compass: %s stands at %.1f°", order.axis.value, order.angle_deg)
                 confirm(order)
             if start.trouble and start.trouble != said:
-                log.warning("compass: the azimuth stays unknown: %s", start.trouble)
+                log.warning("compass: where it points stays unknown: %s", start.trouble)
             said = start.trouble or said
         await asyncio.sleep(READ_EVERY_S if wanted else IDLE_S)
 
 
 def watch_at_start(config: Config, board: Board, loop: ControlLoop) -> Coroutine[Any, Any, None]:
-    """What settles an azimuth that does not know its angle after power-on."""
+    """What settles the axes that do not know their angles after power-on."""
     corrections = compass_path(config)
     compass = open_compass(config, board)
     reader = CompassReader(compass, time.monotonic, CompassFile(corrections) if corrections else None)

@@ -25,10 +25,10 @@ LEARNT_S = 16.0
 
 
 class Bench:
-    def __init__(self, azimuth_deg: float, **tables: Any) -> None:
+    def __init__(self, azimuth_deg: float, start_deg: tuple[float, float] | None = None, **tables: Any) -> None:
         compass = {"kind": "bno055", "at_start": True}
         mount = {"declination_deg": 4.0}
-        self.box = Box(ISEL, (azimuth_deg, 5.0), compass=compass, mount=mount, **tables)
+        self.box = Box(ISEL, start_deg or (azimuth_deg, 5.0), compass=compass, mount=mount, **tables)
         reader = open_compass(self.box.config, self.box.station.board)
         self.compass = CompassReader(reader, self.box.clock, None)
         self.start = CompassAtStart(north_facts(self.box.config, has_file=False))
@@ -73,6 +73,33 @@ def test_after_power_on_the_azimuth_knows_where_it_stands_and_nothing_turned(
     at.box.order(Aim(azimuth_deg - 20.0, 10.0))
     at.box.until_it_stands()
     assert (at.box.boom_deg(AZ), at.box.boom_deg(EL)) == pytest.approx((azimuth_deg - 20.0, 10.0), abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("elevation_deg", "limits", "known"),
+    [
+        (0.0, {}, True),
+        (2.0, {"min_deg": -3}, True),
+        (50.0, {}, True),
+        (89.0, {}, True),
+        (89.0, {"max_deg": 95}, True),
+        (50.0, {"max_deg": 180}, False),
+        (20.0, {"min_deg": -30}, False),
+    ],
+)
+def test_gravity_tells_the_elevation_where_its_range_leaves_no_choice(
+    bench: Callable[..., Bench], elevation_deg: float, limits: dict[str, float], known: bool
+) -> None:
+    at = bench(200.0, elevation=limits, start_deg=(200.0, elevation_deg))
+    at.box.world.inject("elevation-power-cycled")
+    at.box.run(0.5)
+    assert at.box.axis(EL).fault
+    at.wait(15.0)
+    assert (at.box.axis(EL).fault is None) == known
+    assert known or "no single place" in at.start.trouble
+    assert at.box.boom_deg(EL) == pytest.approx(elevation_deg, abs=0.01), "nothing turned"
+    if known:
+        assert at.box.axis(EL).angle_deg == pytest.approx(elevation_deg, abs=0.1), "the encoder gives the rest"
 
 
 @pytest.mark.parametrize(

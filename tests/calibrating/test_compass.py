@@ -24,8 +24,8 @@ CONFIG = parse('[compass]\nkind = "bno055"\naddress = 0x29\n', "test")
 
 
 def fitted(clock: Any, sleep: Any, file: CompassFile | None = None) -> tuple[CompassReader, SimRotor]:
-    """A boom at 40°, with a compass on it."""
-    world = SimServoRotor(ServoAxisSpec(0, 40.0), ServoAxisSpec(1), clock)
+    """A boom at 40°, raised by 20°, with a compass on it."""
+    world = SimServoRotor(ServoAxisSpec(0, 40.0), ServoAxisSpec(1, 20.0), clock)
     world.wire_bno055(0x29, lambda azimuth_deg: azimuth_deg)
     board = Board(world, ExitStack(), clock, sleep)
     return CompassReader(open_compass(CONFIG, board), clock, file), world
@@ -41,7 +41,7 @@ def test_it_reads_the_heading_and_the_calibration() -> None:
     assert seen is not None
     assert seen.problem == ""
     assert seen.heading_deg == pytest.approx(40.0, abs=2.0)
-    assert seen.tilt_deg == 0.0
+    assert seen.tilt_deg == pytest.approx(20.0, abs=0.1)
     assert seen.calibration.complete
     assert str(seen.calibration) == "system 3, gyroscope 3, accelerometer 3, magnetometer 3 of 3"
 

@@ -26,6 +26,12 @@ SEGMENT_S = 8.0
 RANGE_DEG = (0.0, 450.0), (0.0, 90.0)
 
 
+GEARED: dict[str, Any] = {
+    "azimuth": {"max_deg": 450},
+    "mount": {"park_azimuth_deg": 0},
+    "moteus": {"azimuth": {"geared": True}, "elevation": {"geared": True}},
+}
+"""The only encoders are before the gears, and the azimuth overlaps: after a power cut a person is asked."""
 FARTHEST_DEG = 12.0
 """Of an order, from the dummy's 0/0."""
 
@@ -33,7 +39,7 @@ FARTHEST_DEG = 12.0
 def keys(port: int) -> dict[str, Any]:
     """The builder's own set-up beside the shipped links: the box follows the rotctld that Gpredict sends to."""
     follow = {"protocol": "rotctld-follow", "connect": f"127.0.0.1:{port}"}
-    return {"link": [{"protocol": "rotctld", "tcp": "127.0.0.1:4533"}, follow]}
+    return GEARED | {"link": [{"protocol": "rotctld", "tcp": "127.0.0.1:4533"}, follow]}
 
 
 def somewhere(chance: random.Random) -> tuple[float, float]:
@@ -106,6 +112,56 @@ def test_a_day(shack: Callable[..., Shack], chance: random.Random, need_program:
     assert machine.stands() == pytest.approx(stood, abs=0.01)
     machine.stop()
     assert machine.faults() == []
+
+
+SEAM_DEG = 6.0
+"""Nearer than this to the seam of its turn an encoder on the output cannot tell one end of the range from the other."""
+
+
+def test_after_power_cuts_nobody_is_asked(shack: Callable[..., Shack], chance: random.Random) -> None:
+    """As shipped: cut in mid-move, turned by wind or hand meanwhile, and again at a place where it rests."""
+    machine = shack("isel")
+
+    def anywhere() -> tuple[float, float]:
+        return chance.uniform(SEAM_DEG, 360.0 - SEAM_DEG), chance.uniform(0.0, 90.0)
+
+    for in_motion in (True, False, True):
+        place = anywhere()
+        machine.turned_by_hand(*place)
+        machine.start()
+        assert machine.stands() == pytest.approx(place, abs=0.01), "no motion before an order"
+        box, target = Gpredict(machine.ports["rotctld"]), anywhere()
+        box.send(*target)
+        if in_motion:
+            machine.until(lambda world, at=place: world.antenna_deg != at, "it moves")  # type: ignore[misc]
+        else:
+            stands = machine.arrives(*target, NEAR_DEG)
+            assert box.read() == pytest.approx(stands, abs=0.1)
+        box.close()
+        machine.cut()
+        machine.power_cut()
+        assert "position unknown" not in machine.log()
+
+
+def test_geared_and_with_a_compass_nobody_is_asked_either(shack: Callable[..., Shack], chance: random.Random) -> None:
+    """Gravity tells the elevation, the compass the azimuth: the boom level enough, off the overlap and the ends."""
+    compass = {"compass": {"kind": "bno055", "at_start": True}, "mount": {"declination_deg": 4.0}}
+    gears = {"moteus": {axis: {"geared": True} for axis in ("azimuth", "elevation")}}
+    machine = shack("isel", compass | gears)
+    place = chance.uniform(15.0, 345.0), chance.uniform(0.0, 25.0)
+    machine.turned_by_hand(*place)
+    machine.start()
+    machine.until(lambda _: "compass: azimuth stands at" in machine.log(), "the compass tells it")
+    assert machine.stands() == pytest.approx(place, abs=0.01), "no motion before an order"
+    target = chance.uniform(15.0, 345.0), chance.uniform(0.0, 90.0)
+    give_up_s, box = time.monotonic() + 10.0, Gpredict(machine.ports["rotctld"])
+    while time.monotonic() < give_up_s and "position unknown" in machine.rotator("where"):
+        time.sleep(0.2)
+    box.send(*target)
+    machine.arrives(*target, NEAR_DEG)
+    box.close()
+    machine.stop()
+    assert own_faults(machine) == []
 
 
 def test_behind_the_dummy_rotor(

@@ -76,6 +76,13 @@ def all_but(**defects: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize("kind", each)
 
 
+def make_geared(values: dict[str, Any]) -> None:
+    """The ISEL machine with its only encoders before the gears, and an overlap: the harder one."""
+    values["azimuth"]["max_deg"], values["mount"]["park_azimuth_deg"] = 450, 0
+    for axis in ("azimuth", "elevation"):
+        values["moteus"][axis]["geared"] = True
+
+
 def configured(profile: str, **tables: Any) -> Config:
     """A shipped configuration, simulated, with these tables' keys in place of its own; None takes a key away.
 
@@ -83,6 +90,8 @@ def configured(profile: str, **tables: Any) -> Config:
     """
     values = tomllib.loads(shipped(profile))
     values.pop("panel", None)
+    if profile == "isel":
+        make_geared(values)
     for table, keys in (("rotor", {"hardware": "sim"}), *tables.items()):
         own = values.get(table, {}) | keys
         values[table] = {key: value for key, value in own.items() if value is not None}
