@@ -56,6 +56,9 @@ class Browser:
         command = cast(PersonCommand, parse(data.rstrip(b"\n")))  # a drill asks nothing here
         return [self._operating.do(command).encode()]
 
+    def finish(self) -> list[bytes]:
+        return []
+
     def idle(self) -> list[bytes]:
         return []
 

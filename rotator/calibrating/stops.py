@@ -22,7 +22,7 @@ from rotator.exchange.sources import CONSOLE, PANEL, Source
 from rotator.links.console import ConsoleSocket
 from rotator.protocols.console import Ask, parse
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
-from rotator.protocols.lines import LineReader
+from rotator.protocols.lines import LineTalk
 from rotator.protocols.panel_words import StopButton, TurnMode
 from rotator.protocols.session import Session
 from rotator.runtime.client import Client
@@ -84,21 +84,17 @@ def only_stops(post: Callable[[Order], None]) -> Callable[[Order], None]:
     return take
 
 
-class OnlyStops:
+class OnlyStops(LineTalk):
     """A connection to the console that takes no command that moves anything, or would let it move."""
 
-    idle_s = None
-    closed = False
+    max_line = MAX_LINE
 
     def __init__(self, console: Session) -> None:
+        super().__init__()
         self._console = console
-        self._lines = LineReader(MAX_LINE)
 
-    def receive(self, data: bytes) -> list[bytes]:
-        return [self._answer(line) for line in self._lines.feed(data) if line is None or line.strip(b" \t")]
-
-    def idle(self) -> list[bytes]:
-        return []
+    def _answers(self, line: bytes | None) -> list[bytes]:
+        return [self._answer(line)] if line is None or line.strip(b" \t") else []
 
     def _answer(self, line: bytes | None) -> bytes:
         try:

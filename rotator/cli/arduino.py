@@ -22,6 +22,7 @@ from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signa
 from rotator.config.load import load
 from rotator.links.pty import PtyLink
 from rotator.links.wire import Wire
+from rotator.protocols.session import Talk
 from rotator.views import terminal
 
 JOIN_S = 2.0
@@ -42,11 +43,8 @@ class Sketch(Protocol):
         """In real time, until `stop` is set."""
 
 
-class ArduinoSession:
+class ArduinoSession(Talk):
     """The sketch's end of the serial line: passes bytes to the board, which never answers."""
-
-    idle_s = None
-    closed = False
 
     def __init__(self, sketch: Sketch, wire: Wire) -> None:
         self._sketch = sketch
@@ -55,9 +53,6 @@ class ArduinoSession:
     def receive(self, data: bytes) -> list[bytes]:
         self._wire.came(data)
         self._sketch.host_send(data)
-        return []
-
-    def idle(self) -> list[bytes]:
         return []
 
 

@@ -14,7 +14,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.protocols.session import Beating, Ending, Finishing, Session
+from rotator.protocols.session import Beating, Ending, Session
 
 log = logging.getLogger(__name__)
 
@@ -95,8 +95,7 @@ class Conversation:
 
     def finish(self) -> None:
         """The program has ended the connection: what it has sent last is whole, also without a line end."""
-        if isinstance(self._session, Finishing):
-            self._reply(self._session.finish)
+        self._reply(self._session.finish)
 
     def close(self) -> None:
         """End the conversation and its timers, and tell the session. May be called twice."""

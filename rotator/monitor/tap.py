@@ -14,7 +14,7 @@ from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
 from rotator.links.wire import Wire
 from rotator.monitor.transcript import HEADS, At, LinkNote, Peer, Way, encode_at, encode_link, encode_peer, encode_piece
-from rotator.protocols.session import Beating, Finishing, Inquiry, Session
+from rotator.protocols.session import Beating, Inquiry, Session
 
 MOVED_DEG = 1.0
 MOVED_EVERY_S = 1.0
@@ -166,7 +166,7 @@ class TappedSession:
         return self._noted(self._session.idle())
 
     def finish(self) -> list[bytes]:
-        return self._noted(self._session.finish()) if isinstance(self._session, Finishing) else []
+        return self._noted(self._session.finish())
 
     def _noted(self, replies: list[bytes]) -> list[bytes]:
         for reply in replies:

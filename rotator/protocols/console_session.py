@@ -15,7 +15,7 @@ from rotator.exchange.orders import Mode
 from rotator.exchange.spoken import held, sender, spoken
 from rotator.exchange.status import Flown, Status, time_left
 from rotator.protocols.console import TURN_WORDS, VERBS, Ask, Pair, TableLine, Track, TrackTable, parse
-from rotator.protocols.lines import LineReader
+from rotator.protocols.lines import LineTalk
 from rotator.protocols.operating import Operating
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Box, Pairing, Tracking
@@ -34,11 +34,10 @@ def no_hands(_hand: Hand) -> str:
     return "there is no simulated panel"
 
 
-class ConsoleSession:
+class ConsoleSession(LineTalk):
     """One operator's connection."""
 
-    idle_s = None
-    closed = False
+    max_line = MAX_LINE
 
     def __init__(
         self, box: Box, hands: Hands = no_hands, tracking: Tracking | None = None, pairing: Pairing | None = None
@@ -51,18 +50,12 @@ class ConsoleSession:
         self._hands = hands
         self._operating = Operating(box, tracking)
         self._pairing = pairing
-        self._lines = LineReader(MAX_LINE)
+        super().__init__()
         self._table: list[str] = []
         """The lines of a timed table, as far as they have come."""
 
-    def receive(self, data: bytes) -> list[bytes]:
-        return [self._answer(line) for line in self._lines.feed(data) if line is None or line.strip(b" \t")]
-
-    def idle(self) -> list[bytes]:
-        return []
-
-    def finish(self) -> list[bytes]:
-        return [self._answer(line) for line in self._lines.finish() if line is None or line.strip(b" \t")]
+    def _answers(self, line: bytes | None) -> list[bytes]:
+        return [self._answer(line)] if line is None or line.strip(b" \t") else []
 
     def _answer(self, line: bytes | None) -> bytes:
         if line is None:

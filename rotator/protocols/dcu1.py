@@ -14,7 +14,7 @@ from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim, outside
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 MAX_COMMAND = 32
 SAME_COMMAND_S = 0.1
@@ -82,11 +82,10 @@ def tenths_reply(azimuth_deg: float) -> bytes:
     return f"{whole(azimuth_deg * 10) % 3600 / 10:4.1f};".encode()
 
 
-class Dcu1Session:
+class Dcu1Session(Talk):
     """A DCU-1 on one connection. The protocol has no reply for a refusal: the box is silent and does not move."""
 
     idle_s = SAME_COMMAND_S
-    closed = False
 
     def __init__(self, box: Box) -> None:
         self._box = box

@@ -15,7 +15,7 @@ from rotator.exchange.orders import Jog, Order, Park, Stop
 from rotator.protocols import easycomm
 from rotator.protocols.aiming import aim
 from rotator.protocols.easycomm import Level, Word
-from rotator.protocols.lines import OVERLONG, LineReader
+from rotator.protocols.lines import OVERLONG, LineTalk
 from rotator.protocols.session import Box
 
 NO_LINE_END_S = 0.2
@@ -31,30 +31,24 @@ _TURNS = {
 _IDLE, _MOVING, _POINTING, _FAULT = 1, 2, 4, 8
 
 
-class EasycommSession:
+class EasycommSession(LineTalk):
     """EasyComm on one connection. `pstrotator`: `AZ EL` is answered as PstRotator reads it.
 
     A refused order gets no alarm, although the standard has one: no client waits for an answer to an order, and over
     TCP Hamlib would take the alarm for the answer to its next question.
     """
 
+    max_line = easycomm.MAX_LINE
     idle_s = NO_LINE_END_S
-    closed = False
 
     def __init__(self, box: Box, level: Level, *, pstrotator: bool = False) -> None:
         self._box = box
         self._level = level
         self._pstrotator = pstrotator
-        self._lines = LineReader(easycomm.MAX_LINE)
-
-    def receive(self, data: bytes) -> list[bytes]:
-        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
+        super().__init__()
 
     def idle(self) -> list[bytes]:
         return self._answers(self._lines.flush()) if easycomm.is_whole(self._lines.pending) else []
-
-    def finish(self) -> list[bytes]:
-        return [reply for line in self._lines.finish() for reply in self._answers(line)]
 
     def _answers(self, line: bytes | None) -> list[bytes]:
         words = easycomm.parse(line, self._level) if line else ()

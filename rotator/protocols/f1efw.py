@@ -10,7 +10,7 @@ import re
 
 from rotator.exchange.orders import Aim
 from rotator.protocols.aiming import outside
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 ARDUINO_READ_TIMEOUT_S = 1.0
 """An Arduino takes a string as complete after a second of silence, so Termite need not send a line end."""
@@ -21,9 +21,8 @@ _LONGEST_ORDER = 1 + 8 + 3 + 8 + 1 + 3
 _NO_ORDER = re.compile(rb"[Ww][ \t]{0,8}[-+.\d].*?[\r\n]")
 
 
-class F1efwSession:
+class F1efwSession(Talk):
     idle_s = ARDUINO_READ_TIMEOUT_S
-    closed = False
 
     def __init__(self, box: Box) -> None:
         self._box = box

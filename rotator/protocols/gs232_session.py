@@ -11,7 +11,7 @@ from rotator.exchange.status import AxisStatus
 from rotator.protocols import gs232
 from rotator.protocols.aiming import aim, outside
 from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand
-from rotator.protocols.lines import OVERLONG, LineReader
+from rotator.protocols.lines import OVERLONG, LineTalk
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
@@ -37,7 +37,7 @@ _CALIBRATIONS = {
 _HELP = {"H": 1, "H2": 2, "H3": 3}
 
 
-class Gs232Session:
+class Gs232Session(LineTalk):
     """GS-232 on one connection.
 
     `ack` is the answer to a command that asks no question, b"" or b"\\r"; `empty_line` that to an empty line, b"" or
@@ -46,8 +46,7 @@ class Gs232Session:
     line.
     """
 
-    idle_s = None
-    closed = False
+    max_line = gs232.MAX_LINE
 
     def __init__(
         self,
@@ -66,7 +65,7 @@ class Gs232Session:
         self._strict = strict and dialect is Dialect.B
         self._lenient = not strict
         self._may_calibrate = may_calibrate
-        self._lines = LineReader(gs232.MAX_LINE)
+        super().__init__()
         azimuth = box.status().azimuth
         self._top_deg = (
             gs232.AZIMUTH_TOP_450_DEG
@@ -81,15 +80,9 @@ class Gs232Session:
         self._echoed = False
         """The last line was this unit's own `?>`, perhaps with one more line end."""
 
-    def receive(self, data: bytes) -> list[bytes]:
-        replies = [self._answer(line) for line in self._lines.feed(data)]
-        return [reply for reply in replies if reply]
-
-    def idle(self) -> list[bytes]:
-        return []
-
-    def finish(self) -> list[bytes]:
-        return [reply for line in self._lines.finish() if (reply := self._answer(line))]
+    def _answers(self, line: bytes | None) -> list[bytes]:
+        reply = self._answer(line)
+        return [reply] if reply else []
 
     def _answer(self, line: bytes | None) -> bytes:
         if line is None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from rotator.exchange.sources import Refusal
 from rotator.protocols.damaged import is_stop
+from rotator.protocols.session import Talk
 
 OVERLONG = Refusal("a line is too long")
 STOP = b"STOP"
@@ -66,3 +67,21 @@ class LineReader:
         room = self.limit - len(self._buffer)
         self._overlong = self._overlong or len(piece) > room
         self._buffer += piece[:room]
+
+
+class LineTalk(Talk):
+    """A session whose protocol is lines. It answers each, also None: one that was too long."""
+
+    max_line = 0
+
+    def __init__(self) -> None:
+        self._lines = LineReader(self.max_line)
+
+    def receive(self, data: bytes) -> list[bytes]:
+        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
+
+    def finish(self) -> list[bytes]:
+        return [reply for line in self._lines.finish() for reply in self._answers(line)]
+
+    def _answers(self, line: bytes | None) -> list[bytes]:
+        raise NotImplementedError

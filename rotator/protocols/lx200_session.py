@@ -16,7 +16,7 @@ from rotator.exchange.sources import Refusal
 from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.protocols import lx200
 from rotator.protocols.lx200 import Command, CommandReader, Kind
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 from rotator.protocols.star_follower import BELOW, EVERY_S, StarFollower
 
 DONE, NOT_DONE = b"1", b"0"
@@ -32,11 +32,9 @@ _TURNS = {
 _PARTNERS = {"Sr": "Sd", "Sd": "Sr", "Sz": "Sa", "Sa": "Sz"}
 
 
-class Lx200Session:
+class Lx200Session(Talk):
     """`remark` takes a line for the log: what the program wants and does not get."""
 
-    idle_s = None
-    closed = False
     every_s = EVERY_S
 
     def __init__(self, box: Box, sky: Sky, remark: Callable[[str], None] = lambda _text: None) -> None:
@@ -54,9 +52,6 @@ class Lx200Session:
     def receive(self, data: bytes) -> list[bytes]:
         replies = [self._answer(command) for command in self._commands.feed(data)]
         return [reply for reply in replies if reply]
-
-    def idle(self) -> list[bytes]:
-        return []
 
     def finish(self) -> list[bytes]:
         return self.receive(bytes([lx200.HASH]))

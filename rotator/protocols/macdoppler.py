@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 
 from rotator.protocols.aiming import aim, degrees
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 _REPORT = re.compile(
     r"\[AzEl Rotor Report:Azimuth:([-+.,eE\d ]*), *Elevation:([-+.,eE\d ]*)(?:, *SatName:([^\r\n]*))?\][\s\0]*$"
@@ -43,11 +43,8 @@ def encode(report: SatelliteReport, mac: str = "MacBook") -> bytes:
     return f"00000001 {mac} [AzEl Rotor Report:{angles}, SatName:{report.satellite}]".encode()
 
 
-class MacDopplerSession:
+class MacDopplerSession(Talk):
     """MacDoppler on one Mac: it sends the satellite's direction and takes no answers."""
-
-    idle_s = None
-    closed = False
 
     def __init__(self, box: Box) -> None:
         self._box = box
@@ -58,7 +55,4 @@ class MacDopplerSession:
             self._box.order(aim(report.azimuth_deg, report.elevation_deg))
         elif b"[AzEl Rotor" in data:
             self._box.note_refused(data)
-        return []
-
-    def idle(self) -> list[bytes]:
         return []

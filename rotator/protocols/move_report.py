@@ -7,7 +7,7 @@ Knows no command.
 from __future__ import annotations
 
 from rotator.protocols.rounding import bearing, whole
-from rotator.protocols.session import Box, Finishing, Session
+from rotator.protocols.session import Box, Session
 
 LOOK_S = 0.25
 """The time between two looks at the status."""
@@ -41,7 +41,7 @@ class MoveReport:
         return self._session.idle()
 
     def finish(self) -> list[bytes]:
-        return self._session.finish() if isinstance(self._session, Finishing) else []
+        return self._session.finish()
 
     def beat(self) -> list[bytes]:
         """The line, when the antenna stands after a move."""

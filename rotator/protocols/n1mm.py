@@ -16,7 +16,7 @@ from rotator.exchange.orders import Aim, Stop
 from rotator.protocols.aiming import degrees, outside
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 REPORT_EVERY_S = 15.0
 REPORT_MOVED_TENTHS = 10
@@ -96,14 +96,11 @@ def encode(command: Go | Halt) -> bytes:
             return f"<N1MMRotor><stop>{rotor}<freqband>14</freqband></stop></N1MMRotor>".encode()
 
 
-class N1mmSession:
+class N1mmSession(Talk):
     """N1MM on one PC. It expects no answers.
 
     `rotor_name`: obey only orders for this rotor, with the same capitals; None: obey all.
     """
-
-    idle_s = None
-    closed = False
 
     def __init__(
         self,
@@ -131,9 +128,6 @@ class N1mmSession:
                 self._box.note_refused(data)
             case Go(rotor) | Halt(rotor):
                 self._remark(f'orders for rotor {rotor[:24]!a} are not for this box, which is "{self._rotor_name}"')
-        return []
-
-    def idle(self) -> list[bytes]:
         return []
 
     def _is_ours(self, rotor: str) -> bool:

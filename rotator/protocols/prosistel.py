@@ -16,7 +16,7 @@ from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 STX, CR = 0x02, 0x0D
 MAX_COMMAND = 8
@@ -97,11 +97,8 @@ def _letter(axis: Axis, model: Model) -> str:
     return next(letter for letter, each in FORMS[model].axes.items() if each is axis)
 
 
-class ProsistelSession:
+class ProsistelSession(Talk):
     """A Prosistel box on one connection. A refused order is answered with the box's error."""
-
-    idle_s = None
-    closed = False
 
     def __init__(self, box: Box, model: Model) -> None:
         self._box = box
@@ -116,9 +113,6 @@ class ProsistelSession:
     def receive(self, data: bytes) -> list[bytes]:
         replies = [self._take(octet) for octet in data]
         return [each for each in replies if each]
-
-    def idle(self) -> list[bytes]:
-        return []
 
     def finish(self) -> list[bytes]:
         answer = self._take(CR)

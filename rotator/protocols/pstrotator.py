@@ -17,7 +17,7 @@ from rotator.orbits.earth import Site, direction
 from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 ANSWERS_ABOVE = 1
 """Answers go to the sender's address, to the port this much above the box's own."""
@@ -92,15 +92,12 @@ def encode(*items: Item) -> bytes:
     return f"{_OPEN}{''.join(written)}{_CLOSE}".encode()
 
 
-class PstRotatorSession:
+class PstRotatorSession(Talk):
     """PstRotator for one sender. Orders get no answer, and neither does an order that is refused.
 
     `remark` takes a line for the log when the sender asks for something that the box does not have. `site`: the
     antenna's own place; None: unknown.
     """
-
-    idle_s = None
-    closed = False
 
     def __init__(self, box: Box, remark: Callable[[str], None] = lambda _text: None, site: Site | None = None) -> None:
         self._box = box
@@ -147,9 +144,6 @@ class PstRotatorSession:
             self._box.order(order)
         self._point(angles, data)
         return [answer for question in asked for answer in self._answer(question)]
-
-    def idle(self) -> list[bytes]:
-        return []
 
     def _point(self, angles: dict[str, str], data: bytes) -> None:
         """One order for both axes, or for the one that is named. With a damaged number there is no order."""

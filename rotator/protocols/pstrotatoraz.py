@@ -17,7 +17,7 @@ from rotator.exchange.orders import Order, Stop
 from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.rounding import whole
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 MAX_REQUEST = 4096
 PAGES = ("/", "/PstRotatorAz.htm")
@@ -113,15 +113,12 @@ def response(status: HTTPStatus, body: str) -> bytes:
     return (head + body).encode()
 
 
-class PstRotatorAzSession:
+class PstRotatorAzSession(Talk):
     """One connection, one request, one answer."""
-
-    idle_s = None
 
     def __init__(self, box: Box) -> None:
         self._box = box
         self._buffer = bytearray()
-        self.closed = False
 
     def receive(self, data: bytes) -> list[bytes]:
         if self.closed:
@@ -138,9 +135,6 @@ class PstRotatorAzSession:
         request = parse(bytes(self._buffer[: end.start()])) if end and end.end() <= MAX_REQUEST else None
         return [self._answer(request)]
 
-    def idle(self) -> list[bytes]:
-        return []
-
     def finish(self) -> list[bytes]:
         return self.receive(b"\n\n") if self._buffer else []
 
@@ -149,6 +143,7 @@ class PstRotatorAzSession:
 
     def _answer(self, request: Request | None) -> bytes:
         if request is None:
+            self._box.note_refused(bytes(self._buffer))
             return response(HTTPStatus.BAD_REQUEST, "only GET, and at most 4096 bytes\n")
         path, _, query = request.target.partition("?")
         if path not in PAGES:

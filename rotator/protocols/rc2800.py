@@ -14,7 +14,7 @@ from hw.ports import Axis
 from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import SURE_NUMBER, aim, degrees
 from rotator.protocols.damaged import is_stop
-from rotator.protocols.lines import OVERLONG, LineReader
+from rotator.protocols.lines import OVERLONG, LineTalk
 from rotator.protocols.session import Box
 
 MAX_LINE = 64
@@ -82,26 +82,16 @@ def fault_reply(axis: Axis) -> bytes:
     return f"{axis.value[0].upper()} ERR=05\r".encode()
 
 
-class Rc2800Session:
+class Rc2800Session(LineTalk):
     """An RC2800PX on one connection. Each command is answered with the axis' angle; a refused order with an error."""
 
-    idle_s = None
-    closed = False
+    max_line = MAX_LINE
 
     def __init__(self, box: Box) -> None:
         self._box = box
-        self._lines = LineReader(MAX_LINE)
+        super().__init__()
         self._axis = Axis.AZIMUTH
         """The axis of the last command, which the answer to a stop shows."""
-
-    def receive(self, data: bytes) -> list[bytes]:
-        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
-
-    def idle(self) -> list[bytes]:
-        return []
-
-    def finish(self) -> list[bytes]:
-        return [reply for line in self._lines.finish() for reply in self._answers(line)]
 
     def _answers(self, line: bytes | None) -> list[bytes]:
         command = parse(line) if line else None

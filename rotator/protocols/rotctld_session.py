@@ -11,7 +11,7 @@ from rotator import __version__
 from rotator.exchange.orders import Jog, Order, Park, Speed, Stop
 from rotator.protocols import rotctld_caps, rotctld_earth
 from rotator.protocols.aiming import aim
-from rotator.protocols.lines import OVERLONG, LineReader
+from rotator.protocols.lines import OVERLONG, LineTalk
 from rotator.protocols.rotctld import (
     INVALID_PARAMETER,
     IO_ERROR,
@@ -54,16 +54,13 @@ _MOVES: dict[tuple[str, ...], tuple[Jog, ...]] = {
 _DIRECTIONS = {word: jogs for words, jogs in _MOVES.items() for word in words}
 
 
-class RotctldSession:
+class RotctldSession(LineTalk):
+    max_line = MAX_LINE
     idle_s = NO_NEWLINE_S
 
     def __init__(self, box: Box) -> None:
         self._box = box
-        self._lines = LineReader(MAX_LINE)
-        self.closed = False
-
-    def receive(self, data: bytes) -> list[bytes]:
-        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
+        super().__init__()
 
     def idle(self) -> list[bytes]:
         pending = self._lines.pending
@@ -72,9 +69,6 @@ class RotctldSession:
         except BadRequest:
             whole = is_damaged_stop(pending)
         return self._answers(self._lines.flush()) if whole else []
-
-    def finish(self) -> list[bytes]:
-        return [reply for line in self._lines.finish() for reply in self._answers(line)]
 
     def _answers(self, line: bytes | None) -> list[bytes]:
         if self.closed:

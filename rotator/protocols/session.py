@@ -82,13 +82,21 @@ class Session(Protocol):
     def idle(self) -> list[bytes]:
         """The line has been silent for `idle_s`: the buffered bytes are all that will come."""
 
+    def finish(self) -> list[bytes]:
+        """The client has ended the connection: the end of a line too, as of `echo -n "P 180 45" | nc`."""
 
-@runtime_checkable
-class Finishing(Protocol):
-    """A session to which the end of a connection is the end of a line: `echo -n "P 180 45" | nc`."""
+
+class Talk:
+    """What a session is as long as it does not say otherwise: nothing happens in a silence, nor at the end."""
+
+    idle_s: float | None = None
+    closed = False
+
+    def idle(self) -> list[bytes]:
+        return []
 
     def finish(self) -> list[bytes]:
-        """The client has sent its last byte, and has ended the connection itself. Replies as of `receive`."""
+        return []
 
 
 @runtime_checkable

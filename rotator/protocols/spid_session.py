@@ -9,7 +9,7 @@ from hw.ports import Axis, Direction
 from rotator.exchange.orders import Jog, Stop
 from rotator.protocols import spid
 from rotator.protocols.aiming import aim
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 from rotator.protocols.spid import Command, Frame, FrameReader, Model, Turn
 
 PULSES = {Model.ROT1PROG: 1, Model.ROT2PROG: 2, Model.MD01: 10}
@@ -23,11 +23,8 @@ _TURNS = {
 }
 
 
-class SpidSession:
+class SpidSession(Talk):
     """A SPID controller on one connection. The protocol has no reply for a refusal: the box is silent and stands."""
-
-    idle_s = None
-    closed = False
 
     def __init__(self, box: Box, model: Model, pulses: int | None = None) -> None:
         self._box = box
@@ -38,9 +35,6 @@ class SpidSession:
     def receive(self, data: bytes) -> list[bytes]:
         replies = [self._answer(frame) for frame in self._frames.feed(data)]
         return [reply for reply in replies if reply]
-
-    def idle(self) -> list[bytes]:
-        return []
 
     def _answer(self, frame: Frame) -> bytes:
         match frame:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from rotator.control.sky.angles import direction
 from rotator.orbits.celestial import Equinox, Sky, Star
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 from rotator.protocols.star_follower import StarFollower
 
 POSITION_EVERY_S = 0.5
@@ -61,13 +61,12 @@ def _turns(star: Star) -> tuple[int, int]:
     return right_ascension, round(star.declination_deg / 180.0 * _HALF_TURN)
 
 
-class StellariumSession:
+class StellariumSession(Talk):
     """Stellarium on one connection. A frame that is no target ends the connection, and the rest is not read.
 
     `remark` takes a line for the log: the protocol has no answer for a refusal.
     """
 
-    idle_s = None
     every_s = POSITION_EVERY_S
 
     def __init__(self, box: Box, sky: Sky, remark: Callable[[str], None] = lambda _text: None) -> None:
@@ -76,7 +75,6 @@ class StellariumSession:
         self._remark = remark
         self._follower = StarFollower(box, sky, remark)
         self._buffer = bytearray()
-        self.closed = False
 
     def receive(self, data: bytes) -> list[bytes]:
         self._buffer += b"" if self.closed else data
@@ -90,9 +88,6 @@ class StellariumSession:
                 self._follower.go(goto.star)
             else:
                 self._damaged()
-        return []
-
-    def idle(self) -> list[bytes]:
         return []
 
     def beat(self) -> list[bytes]:

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 
 from rotator.protocols.aiming import aim, degrees, may_be_sent
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Talk
 
 LONGEST_PAUSE_S = 10
 """A file whose time has not changed for longer is stale. The next change only shows that it is being written again."""
@@ -52,11 +52,8 @@ def encode(body: str, direction: BodyDirection) -> bytes:
     return f"{hour:02d}:{minute:02d}:{second:02d},{angles},{body}\n".encode()
 
 
-class WsjtxSession:
+class WsjtxSession(Talk):
     """WSJT-X through its file. The first content is no order, because it may be old."""
-
-    idle_s = None
-    closed = False
 
     def __init__(self, box: Box, body: str) -> None:
         self._box = box
@@ -73,7 +70,4 @@ class WsjtxSession:
         if before_s is None or not 0 < (direction.second_of_day - before_s) % DAY_S <= LONGEST_PAUSE_S:
             return []
         self._box.order(aim(direction.azimuth_deg, direction.elevation_deg))
-        return []
-
-    def idle(self) -> list[bytes]:
         return []

@@ -36,6 +36,9 @@ class Answering:
         self.seen += data
         return [POSITION] * data.count(b"\r")
 
+    def finish(self) -> list[bytes]:
+        return []
+
     def idle(self) -> list[bytes]:
         return []
 

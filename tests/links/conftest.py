@@ -75,6 +75,9 @@ class Ear:
         self._more.set()
         return []
 
+    def finish(self) -> list[bytes]:
+        return []
+
     def idle(self) -> list[bytes]:
         return []
 

@@ -100,6 +100,9 @@ class Session:
         self._sessions.changed()
         return [bytes([self._number % 256]) * len(data)]
 
+    def finish(self) -> list[bytes]:
+        return []
+
     def idle(self) -> list[bytes]:
         return []
 

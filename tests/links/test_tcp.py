@@ -156,6 +156,9 @@ class Metered:
         self.taken += len(data)
         return self._session.receive(data)
 
+    def finish(self) -> list[bytes]:
+        return []
+
     def idle(self) -> list[bytes]:
         return self._session.idle()
 

@@ -26,6 +26,9 @@ class Parrot:
         self.closed = b"q" in data
         return [bytes([byte]) * 3 for byte in data if byte != ord("q")]
 
+    def finish(self) -> list[bytes]:
+        return []
+
     def idle(self) -> list[bytes]:
         return [b"silence"]
 

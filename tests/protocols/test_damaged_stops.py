@@ -17,7 +17,7 @@ from rotator.orbits.earth import Site
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.pstrotator import PstRotatorSession
-from rotator.protocols.session import Finishing, Session
+from rotator.protocols.session import Session
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -94,8 +94,7 @@ def stopped(orders: list[Order]) -> set[Axis]:
 def test_a_damaged_stop_stops_both_axes_and_moves_nothing(box: BenchBox, protocol: str, said: bytes) -> None:
     session = connected(protocol, box)
     session.receive(said)
-    if isinstance(session, Finishing):
-        session.finish()
+    session.finish()
     assert stopped(box.orders) == set(Axis)
     assert box.motions == []
 
@@ -104,7 +103,6 @@ def test_a_damaged_stop_stops_both_axes_and_moves_nothing(box: BenchBox, protoco
 def test_a_stop_without_an_end_counts_when_the_connection_ends(box: BenchBox, protocol: str) -> None:
     session = connected(protocol, box)
     session.receive({"lx200": b":Q", "prosistel-d": b"\x02XG999", "dcu1": b"AS1"}.get(protocol, b"STOP"))
-    assert isinstance(session, Finishing)
     session.finish()
     assert stopped(box.orders) == set(Axis)
 
