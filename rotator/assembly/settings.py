@@ -39,8 +39,8 @@ def build_mount(config: Config) -> Mount:
     return Mount(
         azimuth=Range(azimuth.min_deg + shift.azimuth_deg, azimuth.max_deg + shift.azimuth_deg),
         elevation=Range(elevation.min_deg + shift.elevation_deg, elevation.max_deg + shift.elevation_deg),
-        park_azimuth_deg=config.mount.park_azimuth_deg + shift.azimuth_deg,
-        park_elevation_deg=config.mount.park_elevation_deg + shift.elevation_deg,
+        park_azimuth_deg=config.park_deg[0] + shift.azimuth_deg,
+        park_elevation_deg=config.park_deg[1] + shift.elevation_deg,
         flip=config.mount.flip == "over-top",
         horizon=tuple(config.mount.horizon),
         sectors=tuple(build_sector(table, shift) for table in config.mount.forbidden),

@@ -122,6 +122,7 @@ class Config(Table):
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
         faults += self._compass_faults()
         faults += self._switches_in_the_way()
+        faults += self._park_faults()
         faults += forbidden_faults(self.mount.forbidden, {axis: self.axis(axis) for axis in Axis}, self._stands_at())
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
@@ -221,9 +222,29 @@ class Config(Table):
             if f"{axis.value}_low" in self.limits.switches and self.axis(axis).min_deg < stop.home_deg + SWITCH_ROOM_DEG
         ]
 
+    @property
+    def park_deg(self) -> Place:
+        """The park position on the rotor's own scale. What the file leaves out is 0, or next to it."""
+        azimuth, elevation, mount = self.azimuth, self.elevation, self.mount
+        azimuth_deg, elevation_deg = mount.park_azimuth_deg, mount.park_elevation_deg
+        if "park_azimuth_deg" not in mount.model_fields_set:
+            norths = (north for north in (0.0, 360.0, -360.0) if azimuth.min_deg <= north <= azimuth.max_deg)
+            azimuth_deg = next(norths, min(max(0.0, azimuth.min_deg), azimuth.max_deg))
+        if "park_elevation_deg" not in mount.model_fields_set:
+            elevation_deg = min(max(0.0, elevation.min_deg), elevation.max_deg)
+        return azimuth_deg, elevation_deg
+
+    def _park_faults(self) -> list[str]:
+        return [
+            f"mount.park_{axis.value}_deg = {angle_deg:g} is outside {axis.value}'s range, "
+            f"{self.axis(axis).min_deg:g} to {self.axis(axis).max_deg:g}"
+            for axis, angle_deg in zip(Axis, self.park_deg, strict=True)
+            if not self.axis(axis).min_deg <= angle_deg <= self.axis(axis).max_deg
+        ]
+
     def _stands_at(self) -> dict[str, Place]:
         """By key: where the antenna has to be able to stand."""
-        places = {"the park position": (self.mount.park_azimuth_deg, self.mount.park_elevation_deg)}
+        places = {"the park position": self.park_deg}
         if self.rotor.type == "digipot":
             places["digipot's start_deg"] = (self.digipot.azimuth.start_deg, self.digipot.elevation.start_deg)
         return places

@@ -25,13 +25,14 @@ class MountTable(Table):
     tolerance: Literal["sky", "axis"] = "sky"
     """What `tolerance_deg` means, for motors on relays. Degrees on the sky, ahead of a moving target; or, as an Arduino
     does it, of each axis from the latest order."""
-    park_azimuth_deg: float = Field(0.0, ge=0, le=450)
-    park_elevation_deg: float = Field(0.0, ge=0, le=180)
-    """The park position, on the rotor's own scale."""
+    park_azimuth_deg: float = Field(0.0, ge=-360, le=720)
+    park_elevation_deg: float = Field(0.0, ge=-90, le=210)
+    """The park position, on the rotor's own scale: from `min_deg` to `max_deg`, and in no sector. Left out: 0, or
+    what the rotor has nearest to it."""
     park_after_s: float = Field(0.0, ge=0, le=86_400)
     """In AUTO, park so long after the last order is done; 0: never."""
     horizon: list[Point] = Field(default_factory=list)
-    """Points [azimuth, lowest elevation] of trees and roofs; azimuths rise from 0 to below 360."""
+    """Points [azimuth, lowest elevation] of trees and roofs, or of the sea below; azimuths rise from 0 to below 360."""
     forbidden: list[ForbiddenTable] = Field(default_factory=list, max_length=16)
     """Where the antenna would touch something: no path crosses it. 16 at most."""
     model: MountModelTable = MountModelTable()
@@ -49,6 +50,6 @@ class MountTable(Table):
         azimuths = [azimuth_deg for azimuth_deg, _ in points]
         if any(not 0 <= azimuth_deg < 360 for azimuth_deg in azimuths) or azimuths != sorted(set(azimuths)):
             raise ValueError("azimuths must rise from point to point, from 0 to below 360")
-        if any(not 0 <= elevation_deg <= 90 for _, elevation_deg in points):
-            raise ValueError("elevations must be from 0 to 90")
+        if any(not -90 <= elevation_deg <= 90 for _, elevation_deg in points):
+            raise ValueError("elevations must be from -90 to 90")
         return points

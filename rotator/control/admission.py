@@ -32,7 +32,9 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return _unable(order, status) or _unreachable(((aim.azimuth_deg, aim.elevation_deg),), mount)
         case LoadTimed(_, points):
             return _unable(order, status) or _unreachable(points, mount)
-        case Park() | Fly():
+        case Park():
+            return _unable(order, status) or _no_park(mount)
+        case Fly():
             return _unable(order, status)
         case Jog(direction=Direction.PLUS | Direction.MINUS) | RunTimed():
             return _faulty(order, status)
@@ -103,6 +105,14 @@ def _axes_of(order: Order) -> tuple[Axis, ...]:
             return (axis,)
         case _:
             return ()
+
+
+def _no_park(mount: Mount) -> Refusal | None:
+    try:
+        mount.parked()
+    except Unreachable as reason:
+        return Refusal(f"the park position cannot be reached: {reason}", out_of_range=True)
+    return None
 
 
 def _unreachable(points: tuple[tuple[float | None, float | None], ...], mount: Mount) -> Refusal | None:

@@ -8,7 +8,7 @@ import pytest
 
 from hw.ports import AngleSource, Axis, Direction
 from rotator.control.admission import refusal
-from rotator.control.sky.mount import Mount, Range
+from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.exchange.faults import Fault, FaultKind, Missing
 from rotator.exchange.motor import Trust
 from rotator.exchange.orders import (
@@ -265,3 +265,22 @@ def test_relays_are_looked_at_only_where_it_matters_and_the_axis_stands() -> Non
     ):
         assert relays_checked(doubted) == ""
         assert relays_checked(replace(doubted, moving=True)), "not while it turns"
+
+
+@pytest.mark.parametrize("storm", [False, True])
+@pytest.mark.parametrize(
+    ("park_deg", "told"),
+    [
+        ((355.0, 0.0), "azimuth 355 is outside the rotor's range of 0 to 350 degrees"),
+        ((0.0, -5.0), "elevation -5 is outside the rotor's range of 0 to 180 degrees"),
+        ((100.0, 10.0), "it lies in a forbidden sector"),
+        ((90.0, 0.0), ""),
+    ],
+)
+def test_a_park_position_that_cannot_be_reached_is_refused(
+    park_deg: tuple[float, float], told: str, *, storm: bool
+) -> None:
+    mast = Sector("the mast", Range(95, 120), Range(0, 40), 2.0)
+    mount = replace(MOUNT, park_azimuth_deg=park_deg[0], park_elevation_deg=park_deg[1], sectors=(mast,))
+    answer = refusal(Park(storm=storm), status(), mount)
+    assert (answer.reason if answer else "") == (told and f"the park position cannot be reached: {told}")

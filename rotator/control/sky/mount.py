@@ -112,7 +112,13 @@ class Mount:
         """The park position, a place on the axes' own scales. Raises Unreachable."""
         # Not the other turn of the overlap, which would wind the cables.
         azimuth_deg = self._turn(self.park_azimuth_deg, self.park_azimuth_deg)
-        return azimuth_deg, self.clear_deg(azimuth_deg, self.park_elevation_deg)
+        elevation_deg = self.clear_deg(azimuth_deg, self.park_elevation_deg)
+        if not self.elevation.holds(self.park_elevation_deg):
+            limits = f"{self.elevation.min_deg:g} to {self.elevation.max_deg:g}"
+            raise Unreachable(f"elevation {self.park_elevation_deg:g} is outside the rotor's range of {limits} degrees")
+        if self.inside_deg(azimuth_deg, elevation_deg) > 0:
+            raise Unreachable("it lies in a forbidden sector")
+        return azimuth_deg, elevation_deg
 
     def pointed(self, axis_azimuth_deg: float, axis_elevation_deg: float) -> tuple[float, float]:
         """Where the antenna points at these axis angles, as an order would name it: on the same turn, and above 90°
