@@ -25,8 +25,8 @@ class FollowTable(Table):
 
 class SkyTable(Table):
     elements: list[str] = Field(default_factory=list, max_length=64)
-    """Files of elements, folders, or patterns such as `/var/lib/elements/*.json`: OMM as JSON or CSV, or TLE; read
-    again when they change."""
+    """Files of elements, folders, or patterns such as `/var/lib/elements/*.json`: OMM (JSON, CSV, XML, KVN) or TLE;
+    read again when they change."""
     fetch: list[str] = Field(default_factory=list, max_length=16)
     """Addresses, http or https, from which the box fetches elements."""
     serve: str | None = None

@@ -25,7 +25,8 @@ from urllib.request import (
 )
 
 from rotator import __version__
-from rotator.orbits.element_files import EPOCH_AHEAD_S, MOST_BYTES, parse
+from rotator.orbits.element_files import EPOCH_AHEAD_S, MOST_BYTES, parse, text_of
+from rotator.orbits.elements import Notice
 from rotator.store.whole import write_whole
 
 ANSWER_S = 15.0
@@ -175,15 +176,17 @@ def _read(response: HTTPResponse) -> bytes | str:
 
 def checked(content: bytes, utc_s: float) -> int:
     """The number of satellites in it. Raises ValueError where it has none, or more wrong sets than right ones."""
-    good: set[int] = set()
+    good: set[tuple[int, str]] = set()
     wrong, fault = 0, "it is empty"
     try:
-        found = parse(content.decode("utf-8-sig"))
+        found = parse(text_of(content))
     except UnicodeDecodeError:
         raise ValueError("it is no text") from None
     for each in found:
         if not isinstance(each, str) and each.epoch_utc_s <= utc_s + EPOCH_AHEAD_S:
-            good.add(each.catalogue_number)
+            good.add((each.catalogue_number, each.name))
+            continue
+        if isinstance(each, Notice):
             continue
         if not wrong:
             fault = each if isinstance(each, str) else f"{each.name} has elements for a time far ahead"

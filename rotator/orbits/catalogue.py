@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rotator.orbits.element_files import EPOCH_AHEAD_S, FileContent, Read, files, read_again, read_file, stamp_of
 from rotator.orbits.elements import Elements
-from rotator.orbits.names import meant, numbers_by_name, plain
+from rotator.orbits.names import by_spoken_name, meant, one_satellite, plain
 
 NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
 NOT_FETCHED = "No satellites are known: none have been fetched yet; `rotator sky elements` tells why"
@@ -48,8 +48,8 @@ class Catalogue:
         self._has_looked = False
         self._kept: dict[Path, FileContent] = {}
         self._missing: tuple[str, ...] = ()
-        self._sets: dict[int, Elements] = {}
-        self._names: dict[str, set[int]] = {}
+        self._sets: list[Elements] = []
+        self._names: dict[str, set[Elements]] = {}
         if not later:
             self.refresh()
 
@@ -73,7 +73,7 @@ class Catalogue:
     @property
     def satellites(self) -> tuple[Elements, ...]:
         """The newest set of each satellite, by name."""
-        return tuple(sorted(self._sets.values(), key=lambda each: (each.name.casefold(), each.catalogue_number)))
+        return tuple(sorted(self._sets, key=lambda each: (each.name.casefold(), each.catalogue_number)))
 
     def refresh(self) -> bool:
         """Read new and changed files. Returns whether there was one."""
@@ -84,11 +84,14 @@ class Catalogue:
         self._kept = {path: read_again(path, self._kept.get(path), self._read_file) for path in paths}
         if (self._kept, self._missing) == before:
             return False
-        self._sets = {}
+        kept_sets: dict[int, list[Elements]] = {}
         every = [(each, _rank(each, kept.written_s)) for kept in self._kept.values() for each in kept.sets]
         for each, _ in sorted(every, key=itemgetter(1), reverse=True):  # of equals the first
-            self._sets.setdefault(each.catalogue_number, each)
-        self._names = numbers_by_name(self._sets.values())
+            newer = kept_sets.setdefault(each.catalogue_number, [])
+            if not any(one_satellite(each, other) for other in newer):
+                newer.append(each)
+        self._sets = [each for several in kept_sets.values() for each in several]
+        self._names = by_spoken_name(self._sets)
         return True
 
     def has_news(self) -> bool:
@@ -102,15 +105,16 @@ class Catalogue:
 
         Raises Unknown, which tells the names that are near; `others`: names of targets that are no satellites.
         """
-        numbers = meant(name, self._names)
-        if len(numbers) == 1:
-            return self._sets[next(iter(numbers))]
-        if numbers:
-            several = ", ".join(f"{self._sets[number].name} ({number})" for number in sorted(numbers)[:8])
-            raise Unknown(f'"{name}" may be {several}: name one by its number')
+        found = sorted(meant(name, self._names), key=lambda each: (each.catalogue_number, each.name))
+        if len(found) == 1:
+            return found[0]
+        if found:
+            several = ", ".join(f"{each.name} ({each.catalogue_number})" for each in found[:8])
+            by = "number" if len({each.catalogue_number for each in found}) == len(found) else "whole name"
+            raise Unknown(f'"{name}" may be {several}: name one by its {by}')
         if not self._has_looked:
             raise Unknown(STILL_READ)
-        shown = {each: self._sets[min(found)].name for each, found in self._names.items()}
+        shown = {each: min(sets, key=lambda one: one.catalogue_number).name for each, sets in self._names.items()}
         shown |= {plain(each): each for each in others}
         near = difflib.get_close_matches(plain(name), shown, n=3, cutoff=0.6)
         perhaps = _perhaps(list(dict.fromkeys(shown[each] for each in near)))

@@ -20,6 +20,12 @@ class NotAnOrbit(ValueError):  # noqa: N818 - a sentence about numbers
     """The text tells which quantity is wrong."""
 
 
+class Notice(str):
+    """A sentence about sets that are used, with something that a person should know."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
 class Elements:
     """Mean elements in the sense of SGP4, equator and equinox of date (TEME). Raises NotAnOrbit.

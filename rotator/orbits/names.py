@@ -31,10 +31,10 @@ OSCARS = {
     61781: "AO-123",
 }
 """By catalogue number: names of radio amateurs that public lists of elements leave out, now or at times."""
-_PARENTHESES = re.compile(r"\(([^)]*)\)")
-_CONDITION = re.compile(r"\s*\[[^\]]*\]")
+_PARENTHESES = re.compile(r"\(([^()]*)\)")
+_CONDITION = re.compile(r"\[[^\[\]]*\]")
 """`NOAA 15 [B]`: some lists add whether it works, is a reserve, or is silent."""
-_TOGETHER = re.compile(r"\s+&\s+")
+_TOGETHER = re.compile(r"\s&\s")
 _LEADING_ZERO = re.compile(r"(?<![0-9])0(?=[0-9])")
 
 
@@ -53,27 +53,39 @@ def spoken(elements: Elements) -> set[str]:
 
     `OSCAR 7 (AO-7)`: whole, or one of the two. `RS-44 & BREEZE-KM R/B`: whole, or one of the two that fly together.
     """
+    numbers = {str(elements.catalogue_number), plain(tle.alpha5(elements.catalogue_number))}
+    return (_said(elements) | numbers) - {""}
+
+
+def one_satellite(one: Elements, other: Elements) -> bool:
+    """Whether two sets are of the same satellite: one number, and a name that both may have. A set without a name has
+    its number as the name. Before launch several satellites have one number, such as 99999."""
+    if one.catalogue_number != other.catalogue_number:
+        return False
+    said, also = ({without_zero(name) for name in _said(each)} - {""} for each in (one, other))
+    return not said.isdisjoint(also) or without_zero(str(one.catalogue_number)) in said | also
+
+
+def _said(elements: Elements) -> set[str]:
     listed = _CONDITION.sub("", elements.name)
     bare = _PARENTHESES.sub("", listed)
     names = {elements.name, listed, bare, *_PARENTHESES.findall(elements.name), *_TOGETHER.split(bare)}
     names.add(OSCARS.get(elements.catalogue_number, ""))
-    numbers = {str(elements.catalogue_number), plain(tle.alpha5(elements.catalogue_number))}
-    return ({plain(name) for name in names} | numbers) - {""}
+    return {plain(name) for name in names}
 
 
-def numbers_by_name(sets: Iterable[Elements]) -> dict[str, set[int]]:
-    """The catalogue numbers of the satellites that have this plain name."""
-    found: dict[str, set[int]] = {}
+def by_spoken_name(sets: Iterable[Elements]) -> dict[str, set[Elements]]:
+    """The satellites that have this plain name."""
+    found: dict[str, set[Elements]] = {}
     for each in sets:
         for name in spoken(each):
-            found.setdefault(name, set()).add(each.catalogue_number)
+            found.setdefault(name, set()).add(each)
     return found
 
 
-def meant(name: str, by_name: dict[str, set[int]]) -> Collection[int]:
-    """The catalogue numbers of the satellites that a person may mean. Where none has the very name, a zero before
-    a number does not count."""
+def meant(name: str, by_name: dict[str, set[Elements]]) -> Collection[Elements]:
+    """The satellites that a person may mean. Where none has the very name, a zero before a number does not count."""
     if found := by_name.get(plain(name)):
         return found
     without = without_zero(name)
-    return {number for known, numbers in by_name.items() if without_zero(known) == without for number in numbers}
+    return {each for known, sets in by_name.items() if without_zero(known) == without for each in sets}

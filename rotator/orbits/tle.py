@@ -1,22 +1,33 @@
 """Two-line elements: from text to `Elements`, with names or without. Catalogue numbers may be in Alpha-5.
 
-Knows the columns, the checksum and the year 1957. Does not know files.
+Knows the columns, the checksum, the year 1957, and what stands around the sets in files of today: a header, remarks,
+sizes and magnitudes behind the names. Does not know files.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime, timedelta
 
-from rotator.orbits.elements import Elements
+from rotator.orbits.elements import Elements, Notice
 
 LENGTH = 69
 FIRST_YEAR = 57
 """Two-digit years from this on belong to the last century: Sputnik flew in 1957."""
 ALPHA5 = "ABCDEFGHJKLMNPQRSTUVWXYZ"
 """A stands for 10, Z for 33. I and O are left out, for they look like digits."""
-_LINE = re.compile(r"([12]) [ 0-9A-Z][ 0-9]{4}")
+NAME_COLUMNS = 24
+"""Longer lines above a name are prose."""
+END = "/EX"
+"""Ends a message of packet radio, as AMSAT's lists are."""
+SIZES = 3
+"""Some lists have length, width and depth behind the name, and perhaps a magnitude with the letter of its origin."""
+_LINE = re.compile(r"([12]) [ 0-9A-Z][ 0-9]{4}", re.IGNORECASE)
+_SIZE = re.compile(r"-?[0-9]{1,3}\.[0-9]{1,2}")
+_REMARKS = ("#", "//", "<")
+_POINTS = ((23, 34), (11, 20, 37, 46, 54))
+"""The columns of the decimal points, in the first and in the second line."""
 
 
 def looks_like_tle(text: str) -> bool:
@@ -26,34 +37,64 @@ def looks_like_tle(text: str) -> bool:
 
 def read(text: str) -> Iterator[Elements | str]:
     """Each set of a text, in its order; a sentence with its line in place of each wrong set."""
-    name = ""
+    texts: list[tuple[int, str]] = []
+    """The lines of text before a set: the last is its name. An empty line ends a header."""
+    alone = False
     first: tuple[int, str] | None = None
-    for number, line in enumerate((line.strip() for line in text.splitlines()), 1):
+    unchecked = []
+    for number, line in enumerate((line.strip() for line in text.split("\n")), 1):
+        found = _LINE.match(line)
+        if line == END:
+            break
         if not line:
+            alone = True
+        elif line.startswith(_REMARKS):
             continue
-        if line.startswith("1 ") and _LINE.match(line):
+        elif found and found[1] == "1":
             if first is not None:
                 yield f"line {first[0]}: its second line is missing"
             first = (number, line)
-        elif line.startswith("2 ") and _LINE.match(line) and first is not None:
+            yield from _without_set(texts[:-1])
+        elif found and first is not None:
             try:
-                yield _elements(name, first[1], line)
+                yield _elements(_name(texts[-1][1]) if texts else "", first[1], line)
+                unchecked += [first[0]] if len(line) < LENGTH else []
             except ValueError as fault:
                 yield f"line {first[0]}: {fault}"
-            first, name = None, ""
-        elif line.startswith("2 ") and _LINE.match(line):
+            first, texts = None, []
+        elif found:
             yield f"line {number}: its first line is missing"
-            name = ""
+            texts = []
         else:
             if first is not None:
                 yield f"line {first[0]}: its second line is missing"
-            elif name:
-                yield f'line {number}: "{line[:24]}" is no element set'
-            first, name = None, line.removeprefix("0 ").strip()
+                first, texts = None, []
+            if alone:
+                texts, alone = [], False
+            texts.append((number, line))
     if first is not None:
         yield f"line {first[0]}: its second line is missing"
-    elif name:
-        yield f'the end: "{name[:24]}" has no element set'
+    else:
+        yield from _without_set(texts)
+    if unchecked:
+        sets = "a set without checksum is" if len(unchecked) == 1 else f"{len(unchecked)} sets without checksum are"
+        yield Notice(f"line {unchecked[0]}: {sets} taken, but nothing would show a wrong digit in it")
+
+
+def _without_set(texts: Sequence[tuple[int, str]]) -> Iterator[str]:
+    if all(len(line) <= NAME_COLUMNS for _, line in texts):
+        for number, line in texts:
+            yield f'line {number}: "{line}" has no element set'
+
+
+def _name(line: str) -> str:
+    """The name alone, without the zero before it and the sizes behind it."""
+    words = line.removeprefix("0 ").split()
+    sizes = len(words) - (words[-1:] in (["d"], ["v"]))
+    last = sizes
+    while last > 1 and _SIZE.fullmatch(words[last - 1]):
+        last -= 1
+    return " ".join(words[:last] if sizes - last >= SIZES else words)
 
 
 def alpha5(number: int) -> str:
@@ -66,7 +107,7 @@ def alpha5(number: int) -> str:
 
 def catalogue_number(text: str) -> int:
     """Five characters, the first perhaps a letter. Raises ValueError."""
-    text = text.strip()
+    text = text.strip().upper()
     head = ALPHA5.find(text[:1]) if text else -1
     digits = text if head < 0 else f"{head + 10}{text[1:]}"
     if not digits.isdecimal():
@@ -76,10 +117,14 @@ def catalogue_number(text: str) -> int:
 
 def _elements(name: str, one: str, two: str) -> Elements:
     for place, line in (("first", one), ("second", two)):
+        if len(one) == len(two) == LENGTH - 1:
+            break  # without a checksum; one line alone has lost a character
         if len(line) != LENGTH:
             raise ValueError(f"its {place} line has {len(line)} characters in place of {LENGTH}")
         if line[68] != str(_checksum(line)):
             raise ValueError(f"the checksum of its {place} line is {_checksum(line)}, not {line[68]}")
+    if any(line[column] != "." for line, columns in zip((one, two), _POINTS, strict=True) for column in columns):
+        raise ValueError("its columns are shifted")
     number = catalogue_number(one[2:7])
     if catalogue_number(two[2:7]) != number:
         raise ValueError(f"its lines are of {one[2:7].strip()} and {two[2:7].strip()}")

@@ -35,7 +35,7 @@ def one_of_each(satellites: Iterable[Satellite]) -> list[Satellite]:
     angles_deg = [_on_its_orbit_deg(each, at_s) for each in around]
     wrapped = [*zip(angles_deg, around, strict=True)]
     wrapped += [(deg + 360.0, each) for deg, each in wrapped if deg < NEAR_DEG]
-    left_out: set[int] = set()
+    left_out: set[tuple[int, str]] = set()
     for index, (deg, one) in enumerate(wrapped[: len(candidates)]):
         for other_deg, other in islice(wrapped, index + 1, None):
             # Of a crowd on one orbit the first leaves out all others, and those are not compared among themselves.
@@ -46,8 +46,9 @@ def one_of_each(satellites: Iterable[Satellite]) -> list[Satellite]:
     return [each for each in candidates if _number(each) not in left_out]
 
 
-def _number(satellite: Satellite) -> int:
-    return satellite.elements.catalogue_number
+def _number(satellite: Satellite) -> tuple[int, str]:
+    """Before launch several have one number."""
+    return satellite.elements.catalogue_number, satellite.elements.name
 
 
 def _on_its_orbit_deg(satellite: Satellite, at_s: float) -> float:

@@ -13,6 +13,7 @@ from typing import Any
 
 from aiohttp import web
 
+from rotator.orbits.element_files import is_fault
 from rotator.orbits.elements import Elements, printable
 from rotator.protocols.methods import WrongValuesError
 from rotator.store.fetches import FetchesFile
@@ -128,7 +129,7 @@ class ElementFiles:
             return ["it is no text"]
         except (ValueError, RuntimeError) as fault:
             return [str(fault)]
-        wrong = [each for each in found if isinstance(each, str)]
+        wrong = [str(each) for each in found if is_fault(each)]
         return wrong if found else ["it holds no elements"]
 
     def listed(self) -> Fields:

@@ -237,7 +237,7 @@ def test_a_file_that_a_person_has_removed_is_fetched_whole(station: Station, ser
     ("content", "told"),
     [
         (b"", "it is empty"),
-        (b"<html>data have not changed</html>", "neither TLE nor OMM"),
+        (b"<html>data have not changed</html>", "a web page (HTML)"),
         (b"[]", "it is empty"),
         (messages(10)[:-40], "no JSON"),
         (b"\xff\xfe\x00", "it is no text"),

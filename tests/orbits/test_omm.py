@@ -93,7 +93,7 @@ def test_a_message_that_is_wrong_is_named_and_the_others_count(change: dict[str,
     [
         ("[{", "line 1: no JSON"),
         ("3", "no list of messages"),
-        ("[" * 100_000, "no list of messages"),
+        ("[" * 100_000, "too many brackets"),
     ],
 )
 def test_what_is_no_json_of_messages(text: str, told: str) -> None:

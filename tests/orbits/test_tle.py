@@ -84,8 +84,8 @@ def test_a_satellite_launched_in_1958_has_an_epoch_of_that_century() -> None:
         (ISS.replace(" 9996", "9996"), "line 2: its first line has 68 characters in place of 69"),
         (ISS.rpartition("2 25544")[0], "line 2: its second line is missing"),
         (ISS.replace("2 25544 ", "2 25545 ").replace("498316", "498317"), "line 2: its lines are of 25544 and 25545"),
-        ("ISS (ZARYA)\nNOAA 19\n" + ISS, 'line 2: "NOAA 19" is no element set'),
-        (ISS + "NOAA 19\n", 'the end: "NOAA 19" has no element set'),
+        ("NOAA 15\nNOAA 19\n" + ISS, 'line 2: "NOAA 19" has no element set'),
+        (ISS + "NOAA 19\n", 'line 4: "NOAA 19" has no element set'),
     ],
 )
 def test_what_is_wrong_is_named_with_its_line(text: str, told: str) -> None:
