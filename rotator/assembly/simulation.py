@@ -24,6 +24,7 @@ from rotator.assembly.kinds import builder
 from rotator.assembly.settings import build_offsets
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.model import Config
+from rotator.exchange.foreign import json_of
 from rotator.store.json_file import number
 from rotator.store.whole import write_whole
 
@@ -145,9 +146,9 @@ def kept_world(config: Config) -> WorldState | None:
 def kept_place(path: Path) -> tuple[float, float]:
     """Azimuth and elevation where the last run has left a simulated rotor; 0 and 0: not known."""
     try:
-        azimuth, elevation = json.loads(path.read_text(encoding="utf-8"))
+        azimuth, elevation = json_of(path.read_text(encoding="utf-8"))
         return number(azimuth, "azimuth", -360, 720), number(elevation, "elevation", -360, 720)
-    except (OSError, ValueError, TypeError, RecursionError):
+    except (OSError, ValueError, TypeError):
         return 0.0, 0.0
 
 

@@ -22,6 +22,7 @@ from pathlib import Path
 from rotator import __version__
 from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
+from rotator.exchange.foreign import json_of
 from rotator.store import compass, knobs, learnt, priorities
 from rotator.store.forms import Form, LaterFormError
 from rotator.store.plain import read_plain
@@ -82,10 +83,10 @@ def check(data: bytes) -> Backup:
     if missing := [name for name in (ABOUT, CONFIGURATION) if name not in texts]:
         raise BackupError(f"this is no backup of a rotator: {missing[0]} is not in it")
     try:
-        about = FORM.brought_up(json.loads(texts[ABOUT]))
+        about = FORM.brought_up(json_of(texts[ABOUT]))
     except LaterFormError as fault:
         raise BackupError(f"{fault}. Update this box first") from fault
-    except (ValueError, RecursionError) as fault:
+    except ValueError as fault:
         raise BackupError(f"this is no backup of a rotator: {ABOUT}: {fault}") from fault
     try:
         config = parse(texts[CONFIGURATION], f"{CONFIGURATION} of the backup")

@@ -6,13 +6,13 @@ its commands must be quick. The box decides whether it obeys.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Self
 
 from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import consoles, reach
+from rotator.exchange.foreign import json_of
 
 ANSWER_S = 5.0
 """The longest wait for an answer, in seconds."""
@@ -67,7 +67,7 @@ class RunningBox:
 
     def status(self) -> BoxStatus:
         (line,) = self.order("status json")
-        return dict(json.loads(line))
+        return dict(json_of(line))
 
 
 def faults(status: BoxStatus, axes: Sequence[str] = AXES) -> list[str]:

@@ -38,7 +38,7 @@ START_S = 20.0
 _UNITS = ("etc/systemd/system", "lib/systemd/system", "usr/lib/systemd/system")
 _LATER = "ADDRESS"
 """In place of an address that is not known yet."""
-_POSITION = re.compile(rb"\s*[+;|,]?\s*(?:p|\\get_pos)\s*")
+_POSITION = re.compile(rb"\s*+[+;|,]?\s*+(?:p|\\get_pos)\s*")
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ FOLDERS = (_PACKAGE / "docs", _PACKAGE.parent / "docs")
 """In the installed package; in a clone."""
 FIRST = ("troubleshooting", "paths/pot", "wiring")
 """Where two pages have the same heading, these come first."""
-_LINK = re.compile(r"\[([^\]]*)\]\(([^)\s]+)\)")
+_LINK = re.compile(r"\[([^\[\]]*)\]\(([^()\s]+)\)")
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 import socket
-import tomllib
 from collections.abc import Callable, Sequence
 from importlib.resources import files
 from pathlib import Path
@@ -18,6 +17,7 @@ from rotator.cli.announced import boxes
 from rotator.cli.failed import CommandFailed, NoBox
 from rotator.config import places
 from rotator.config.places import INSTALLED, STATE, console_path, monitor_places
+from rotator.exchange.foreign import toml_of
 from rotator.links.unix import short
 from rotator.store.plain import read_plain
 
@@ -40,9 +40,9 @@ def quick_monitors(path: Path | None) -> list[Path]:
     """The same places without the model of the configuration. Empty: the keys cannot be read, and no running box was
     started with this file."""
     try:
-        tables = tomllib.loads(_text(path))
+        tables = toml_of(_text(path))
         state, monitor = tables.get("state", {}).get("path", STATE), tables.get("monitor", {}).get("path")
-    except (OSError, ValueError, AttributeError, RecursionError):
+    except (OSError, ValueError, AttributeError):
         return _started_with(path)
     usual = isinstance(state, str) and (monitor is None or (isinstance(monitor, str) and bool(Path(monitor).name)))
     return monitor_places(state, monitor, os.environ) if usual else _started_with(path)

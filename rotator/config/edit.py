@@ -7,7 +7,6 @@ the loader checks the text that comes of it.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from tomlkit.exceptions import TOMLKitError
 
 from rotator.config.migrations import brought_up
 from rotator.config.statements import Place, places, statements
+from rotator.exchange.foreign import toml_of
 
 MOST_CHANGES, DEEPEST = 500, 6
 LONG_LIST = 4
@@ -48,12 +48,12 @@ class Change:
 
 
 def edited(text: str, changes: Sequence[Change]) -> str:
-    """The text with these changes, one after the other. Raises NoChangeError; TOMLDecodeError for what is no TOML."""
+    """The text with these changes, one after the other. Raises NoChangeError; ValueError for what is no TOML."""
     if len(changes) > MOST_CHANGES:
         raise NoChangeError(f"{len(changes)} changes at a time: {MOST_CHANGES} at most")
     text = brought_up(text)
     for change in changes:
-        wanted = _applied(tomllib.loads(text), change)
+        wanted = _applied(toml_of(text), change)
         if _holds(text, wanted):
             continue
         text = next((new for new in _ways(text, change) if _holds(new, wanted)), "")
@@ -82,8 +82,8 @@ def _is_plain(value: object, depth: int) -> bool:
 def _holds(text: str, wanted: Mapping[str, Any]) -> bool:
     """Whether this text says just that."""
     try:
-        return bool(tomllib.loads(text) == wanted)
-    except tomllib.TOMLDecodeError:
+        return bool(toml_of(text) == wanted)
+    except ValueError:
         return False
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from rotator.config import migrations, toml_text
 from rotator.config.mistake import ConfigError, Mistake
 from rotator.config.model import Config
+from rotator.exchange.foreign import TooMuchError
 from rotator.store.plain import NoPlainFileError
 
 __all__ = ["SIMULATED", "ConfigError", "Mistake", "load", "parse", "profiles", "shipped"]
@@ -76,7 +77,9 @@ def parse(text: str, name: str) -> Config:
     """The checked configuration in a TOML text. `name` stands in the errors. Raises ConfigError."""
     try:
         return Config.model_validate(migrations.values(text))
-    except (ValueError, RecursionError, migrations.FormatError) as first:
+    except TooMuchError as fault:
+        raise ConfigError(name, [Mistake(str(fault))]) from fault
+    except ValueError as first:
         from rotator.config.mistakes import mistakes_in  # noqa: PLC0415 - only a file with a mistake needs it
 
         raise ConfigError(name, mistakes_in(text)) from first

@@ -14,13 +14,14 @@ from dataclasses import dataclass
 
 from rotator.config.mistake import Mistake
 from rotator.config.slips import Sort, shown, slip
-from rotator.config.statements import Statement, places, statements
+from rotator.config.statements import LINES, Statement, places, statements
+from rotator.exchange.foreign import toml_of
 
 _TWICE = re.compile(r"Cannot (?:declare|overwrite|mutate|redefine)|twice|immutable|already")
 _PLACE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
-_ENDLESS = re.compile(r"\d(?:_?\d){4300}")
+_ENDLESS = re.compile(r"(?<![\d_])[\d_]{4301}")
 MOST = 50
-"""The most mistakes that are looked for in one file."""
+"""The most mistakes that are looked for in one file; one of a file with more lines than a configuration has."""
 SCRATCH = "#"
 """The first character of the tables that take the keys below a heading that cannot be read."""
 
@@ -44,16 +45,14 @@ def mended(text: str, tables: Collection[str], lists: Collection[str], sorts: Ma
     text, mistakes = _brackets(text, tables, lists)
     whole = True
     whys: dict[int, str] = {}
-    for _ in range(MOST):
+    for _ in range(MOST if text.count("\n") < LINES else 1):
         try:
-            tomllib.loads(text)
+            toml_of(text)
             return Mended(text, tuple(mistakes), whole, whys)
         except tomllib.TOMLDecodeError as fault:
             reason = str(fault)
-        except RecursionError:
-            return Mended("", (*mistakes, Mistake("has too many brackets inside each other")), whole=False, whys={})
-        except ValueError:  # the one thing in TOML that Python refuses by itself
-            return Mended("", (*mistakes, _endless(text)), whole=False, whys={})
+        except ValueError as fault:  # too much of it, or the one thing in TOML that Python refuses by itself
+            return Mended("", (*mistakes, _endless(text, str(fault))), whole=False, whys={})
         mistake, line, better, why = _mistake(text, reason, sorts)
         rows = text.split("\n")
         if any(mistake.lines == each.lines for each in mistakes):
@@ -69,10 +68,10 @@ def mended(text: str, tables: Collection[str], lists: Collection[str], sorts: Ma
     return Mended("", tuple(mistakes), whole=False, whys={})
 
 
-def _endless(text: str) -> Mistake:
+def _endless(text: str, reason: str) -> Mistake:
     """Python reads no whole number with more than some thousand digits."""
-    lines = (number for number, row in enumerate(text.split("\n"), 1) if _ENDLESS.search(row))
-    return Mistake("a number has thousands of digits", tuple(lines)[:1])
+    lines = tuple(number for number, row in enumerate(text.split("\n"), 1) if _ENDLESS.search(row))
+    return Mistake("a number has thousands of digits" if lines else reason, lines[:1])
 
 
 def _brackets(text: str, tables: Collection[str], lists: Collection[str]) -> tuple[str, list[Mistake]]:

@@ -7,9 +7,10 @@ the model knows. The file itself changes only when a calibration is saved in it.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
+
+from rotator.exchange.foreign import toml_of
 
 if TYPE_CHECKING:
     from tomlkit import TOMLDocument
@@ -28,16 +29,16 @@ class FormatError(ValueError):
 
 def values(text: str, steps: Sequence[Step] = STEPS) -> dict[str, Any]:
     """The keys of the file as today's model knows them, without the number. Raises like `brought_up`."""
-    found = tomllib.loads(text)
+    found = toml_of(text)
     if _number(found, steps) <= len(steps):
-        found = tomllib.loads(brought_up(text, steps))
+        found = toml_of(brought_up(text, steps))
     found.pop(KEY, None)
     return found
 
 
 def brought_up(text: str, steps: Sequence[Step] = STEPS) -> str:
-    """The text in today's format. Raises FormatError, and TOMLDecodeError where it is no TOML."""
-    number, today = _number(tomllib.loads(text), steps), 1 + len(steps)
+    """The text in today's format. Raises FormatError, and ValueError where it is no TOML."""
+    number, today = _number(toml_of(text), steps), 1 + len(steps)
     if number == today:
         return text
     import tomlkit  # noqa: PLC0415 - slow to load, and a file of today's format does without it

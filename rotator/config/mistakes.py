@@ -19,6 +19,8 @@ from rotator.config.model import Config
 from rotator.config.statements import Place, places
 from rotator.config.wording import explain, sorts, tables
 
+ENOUGH = 200
+"""Mistakes of keys and values: more than a person reads at once, or a file for a rotator can have."""
 _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 """What may be a key in the words of a mistake."""
 
@@ -41,7 +43,7 @@ def mistakes_in(text: str) -> list[Mistake]:
             Config.model_validate(values)
             break
         except ValidationError as invalid:
-            errors = invalid.errors()
+            errors = invalid.errors()[:ENOUGH]
         # A line that could not be read may hold just what is missing.
         shown_errors = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
         shown_errors = [error for error in shown_errors if not _follows(error, replaced)]
@@ -49,7 +51,7 @@ def mistakes_in(text: str) -> list[Mistake]:
         seen += new
         for mistake in (Mistake(_counted(each.text, several), each.lines) for each in new):
             _tell(mistake, found, mended.whys)
-        if any(not error["loc"] for error in errors) or (shown_errors and not new):
+        if any(not error["loc"] for error in errors) or (shown_errors and not new) or len(found) >= ENOUGH:
             break
         replaced |= {tuple(error["loc"]) for error in errors}
         # One mistake can hide another: limits are compared only if both are numbers. Mend the values, and check again.

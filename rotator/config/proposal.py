@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,9 +18,6 @@ from rotator.config.load import ConfigError, Mistake, parse
 from rotator.config.model import Config
 from rotator.config.statements import Place, places
 from rotator.config.writing import WRITING, replace
-
-LONGEST = 256 * 1024
-"""A longer file is none that the page shows."""
 
 
 class OverwritesError(Exception):
@@ -74,7 +70,7 @@ def settings(path: Path) -> Settings:
     text = _text(path)
     try:
         values = migrations.values(text)
-    except (tomllib.TOMLDecodeError, RecursionError, migrations.FormatError):
+    except ValueError:
         parse(text, str(path))
         raise
     try:
@@ -93,8 +89,8 @@ def propose(path: Path, begun: str, make: Callable[[str], str]) -> Proposal:
         raise OverwritesError
     try:
         after = make(before)
-    except (tomllib.TOMLDecodeError, RecursionError, migrations.FormatError):
-        parse(before, str(path))
+    except ValueError:
+        settings(path)  # where the file is no TOML, that is why
         raise
     return Proposal(before, after, _form_mistakes(after))
 
@@ -111,12 +107,9 @@ def write(path: Path, proposal: Proposal) -> None:
 
 def _text(path: Path) -> str:
     try:
-        text = toml_text.read(path)
+        return toml_text.read(path)
     except toml_text.NoTextError as none:
         raise ConfigError(str(path), [none.mistake]) from none
-    if len(text) > LONGEST:
-        raise ConfigError(str(path), [Mistake(f"is longer than {LONGEST // 1024} KiB: an editor can change it")])
-    return text
 
 
 def _form_mistakes(text: str) -> tuple[FormMistake, ...]:

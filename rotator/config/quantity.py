@@ -39,6 +39,8 @@ _OTHER = {
     ("m", "km"): "1000", ("m", "cm"): "0.01", ("m", "ft"): "0.3048",
 }  # fmt: skip
 """The end of a key, a unit that is not its own, and the factor to its own."""
+LONGEST = 80
+"""Characters of a text that is looked at: no person writes a number with its unit in more."""
 _NUMBER = r"[-+]?(?:\d[\d.,' _]*\d|\d)(?:e[-+]?\d+)?"
 _PARTS = re.compile(rf"({_NUMBER})\s*(.*)", re.IGNORECASE)
 _GROUPS = re.compile(r"\d{1,3}(?:([.,' _])\d{3})(?:\1\d{3})*")
@@ -53,7 +55,7 @@ _PLAIN = str.maketrans(
 
 def numbers(text: str, key: str, *, whole: bool = False) -> list[str]:
     """What the text can mean for this key, as TOML writes it; empty: not understood. `whole`: only whole numbers."""
-    bare = text.translate(_PLAIN).strip().rstrip(";,").strip()
+    bare = text[:LONGEST].translate(_PLAIN).strip().rstrip(";,").strip()
     if len(bare) > 1 and bare[0] == bare[-1] and bare[0] in "\"'":
         bare = bare[1:-1].strip()
     bare = re.sub(r"^([-+]?)([.,]\d)", r"\g<1>0\2", bare)  # .5

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from tomllib import TOMLDecodeError
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
@@ -38,10 +37,10 @@ def save_table(
                 # Another program has emptied it. With these keys alone it would be the file of a simulated station.
                 raise ConfigError(str(path), [Mistake("is empty")])
             text = changed(before, name, calibration=calibration, points=points, **values)
-        except (TOMLKitError, TOMLDecodeError) as fault:
-            raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
         except FormatError as fault:
             raise ConfigError(str(path), [Mistake(str(fault))]) from fault
+        except (TOMLKitError, ValueError) as fault:
+            raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
         except toml_text.NoTextError as none:
             raise ConfigError(str(path), [none.mistake]) from none
         # A text that the next start would refuse is not written.

@@ -7,7 +7,6 @@ Of keys it knows what a caller says: which are numbers, and which are texts. See
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -15,10 +14,13 @@ from typing import Literal
 from rotator.config.mistake import NO_BREAK
 from rotator.config.quantity import numbers
 from rotator.config.statements import parts
+from rotator.exchange.foreign import toml_of
 
 Sort = Literal["number", "whole", "text"]
 """What belongs behind a key: a number, a whole number, or a text. Other keys have none of these."""
 
+LONGEST = 400
+"""Characters of a line that is looked at: a longer one is no slip that a person would see."""
 _NUMBER = r"[-+]?\d+(?:\.\d+)?"
 _UNIT = re.compile(rf"(?:{_NUMBER}|[-+]?\d+,\d+)\s*([^\d\s.,\"'\[\]][^\"'\[\]]*)")
 _POINT = re.compile(r"([-+]?)(\d*)\.(\d*)")
@@ -46,6 +48,8 @@ class Slip:
 def slip(line: str, reason: str, sorts: Mapping[str, Sort]) -> Slip:
     """`reason`: what the reader of TOML says, for a line that shows none of the usual slips. `sorts`: by key."""
     bare = line.strip()
+    if len(bare) > LONGEST:
+        return Slip(f"{shown(bare)}: is not TOML: {reason}", None)
     for found in (
         _unseen(line), _remark(bare), _quotes(bare), _heading(bare), _value_of(bare, sorts), _no_sign(bare, sorts),
     ):  # fmt: skip
@@ -63,8 +67,8 @@ def shown(text: str) -> str:
 def _write(bare: str, mended: str, why: str) -> Slip | None:
     """Only a line that is TOML is advised."""
     try:
-        tomllib.loads(mended)
-    except (ValueError, RecursionError):
+        toml_of(mended)
+    except ValueError:
         return None
     right = shown(_before_remark(mended))
     right = right.replace(" ", NO_BREAK) if len(right) < 30 else right

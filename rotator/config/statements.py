@@ -6,18 +6,22 @@ Knows headings, keys, texts in quotes and lists over several lines. Does not kno
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+
+from rotator.exchange.foreign import toml_of
 
 Place = tuple[int | str, ...]
 """The way to a key: `("link", 0, "pty")`."""
 
+LINES = 3000
+"""More than any configuration has. All its keys are kept taken apart, for they are looked at once for each mistake."""
 _HEADING = re.compile(r"\s*(\[\[?)([^\[\]]+)(\]\]?)\s*(?:#.*)?")
 _KEY = re.compile(r"""\s*((?:[\w-]+|"[^"]*"|'[^']*')(?:\s*\.\s*(?:[\w-]+|"[^"]*"|'[^']*'))*)\s*=""")
 _NEXT = re.compile(r"\s*(?:[A-Za-z_][\w.-]*\s*=|\[\[?[A-Za-z_][\w. -]*\]\]?\s*(?:#.*)?$)")
 """A line like this begins something new, even where a list before it has not been closed."""
-_TOKENS = re.compile(r'"""|\'\'\'|"(?:\\.|[^"\\])*"|\'[^\']*\'|#.*|[\[\]{}]')
+_TOKENS = re.compile(r'"""|\'\'\'|(?<!\\)"(?:\\.|[^"\\])*+"|\'[^\']*\'|#.*|[\[\]{}]')
 _CLOSES = {"[": "]", "{": "}"}
 
 
@@ -60,7 +64,7 @@ def statements(text: str) -> list[Statement]:
 
 def places(text: str) -> Mapping[Place, tuple[int, ...]]:
     """The lines of each key and heading; a table has those of its headings, or that of its first key."""
-    found: dict[Place, tuple[int, ...]] = {}
+    found: dict[Place, list[int]] = {}
     unsaid: dict[Place, tuple[int, ...]] = {}
     counts: dict[Place, int] = {}
     table: Place = ()
@@ -78,15 +82,16 @@ def places(text: str) -> Mapping[Place, tuple[int, ...]]:
         for length in range(1, len(place)):
             unsaid.setdefault(place[:length], (statement.line,))
         if statement.brackets or statement.keys:
-            found[place] = (*found.get(place, ()), statement.line)
-    return unsaid | found
+            found.setdefault(place, []).append(statement.line)
+    return unsaid | {place: tuple(lines) for place, lines in found.items()}
 
 
+@lru_cache(LINES)
 def parts(key: str) -> tuple[str, ...]:
     """`sim."azimuth"` taken apart; empty for what is no key."""
     try:
-        value: object = tomllib.loads(f"{key.strip()} = 0")
-    except tomllib.TOMLDecodeError:
+        value: object = toml_of(f"{key.strip()} = 0")
+    except ValueError:
         return ()
     found = []
     while isinstance(value, dict):
@@ -123,17 +128,18 @@ def _end_of_value(lines: list[str], first: int, begin: int) -> tuple[int, str]:
 
 def _tokens(text: str, quote: str) -> Iterator[str]:
     """The brackets and the marks of long texts; `quote`: the mark of the long text in which the line begins."""
-    while text:
+    at = 0
+    while True:
         if quote:
-            _, found, text = text.partition(quote)
-            if found:
-                yield found
+            at = text.find(quote, at) + len(quote)
+            if at < len(quote):
+                return
+            yield quote
             quote = ""
-            continue
-        token = _TOKENS.search(text)
+        token = _TOKENS.search(text, at)
         if token is None:
             return
-        text = text[token.end() :]
+        at = token.end()
         if token[0] in ('"""', "'''"):
             quote = token[0]
         if len(token[0]) == 1 or quote:

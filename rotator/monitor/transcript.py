@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from enum import Enum
 
+from rotator.exchange.foreign import json_of
 from rotator.exchange.sources import Source
 
 
@@ -163,7 +164,7 @@ def unescape(text: str) -> bytes:
 
 def _keys(text: str) -> dict[str, object]:
     try:
-        keys = json.loads(text)
+        keys = json_of(text)
     except ValueError as fault:
         raise NotATranscript(f"{text!r}: the keys of a link are a JSON object") from fault
     assert isinstance(keys, dict), "the braces make it one"

@@ -5,9 +5,9 @@ Knows rights, and that a retained message of the broker is no order. Does not kn
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
+from rotator.exchange.foreign import json_of
 from rotator.protocols.methods import METHODS, Method, WrongValuesError
 from rotator.protocols.operating import Operating
 
@@ -61,8 +61,8 @@ def _values(payload: bytes) -> dict[str, object]:
     if payload.strip() in (b"", b"PRESS"):
         return {}
     try:
-        values = json.loads(payload)
-    except (ValueError, RecursionError):
+        values = json_of(payload)
+    except ValueError:
         raise WrongValuesError("the message must be a JSON object") from None
     if not isinstance(values, dict):
         raise WrongValuesError("the message must be a JSON object")

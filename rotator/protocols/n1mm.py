@@ -23,7 +23,7 @@ REPORT_MOVED_TENTHS = 10
 """After a turn of this many tenths of a degree it reports at once."""
 TURN_TENTHS = 3600
 
-_MESSAGE = re.compile(r"\ufeff?\s*(?:<\?xml[^<>]*\?>)?\s*<N1MMRotor>(.*)</N1MMRotor>[\s\0]*", re.DOTALL)
+_MESSAGE = re.compile(r"\ufeff?\s*+(?:<\?xml[^<>]*\?>\s*+)?<N1MMRotor>(.*)</N1MMRotor>[\s\0]*", re.DOTALL)
 _FIELD = re.compile(r"\s*<([A-Za-z]+)>([^<>]*)</\1>\s*")
 _NO = ("0", "false")
 _NO_STOP = re.compile(rf"<stop>\s*(?:{'|'.join(_NO)})\s*</stop>", re.IGNORECASE)

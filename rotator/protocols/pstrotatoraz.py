@@ -23,7 +23,7 @@ MAX_REQUEST = 4096
 PAGES = ("/", "/PstRotatorAz.htm")
 _END = re.compile(rb"\r?\n\r?\n")
 _REQUEST = re.compile(rb"GET (/[!-~]*) HTTP/1\.[01]")
-_HEADER = re.compile(rb"([!#$%&'*+.^_`|~0-9A-Za-z-]+):[ \t]*([\x20-\x7e\x80-\xff\t]*)")
+_HEADER = re.compile(rb"([!#$%&'*+.^_`|~0-9A-Za-z-]+):[ \t]*+([\x20-\x7e\x80-\xff\t]*)")
 _LOCAL = (".local", ".lan", ".home.arpa", ".internal")
 _SAME_SITE = ("", "none", "same-origin")
 

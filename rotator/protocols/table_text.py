@@ -25,7 +25,7 @@ FARTHEST_DEG = 45.0
 SINCE_1970_S = 1e9
 """A larger t counts from 1970."""
 FARTHEST_AZIMUTH_DEG = 720
-_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?")
+_NUMBER = re.compile(r"[-+]?(?:[0-9]++(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?")
 _COMMA = re.compile(r"[-+]?[0-9]+,[0-9]+")
 _UTC = re.compile(r"[0-9]{4}-?[0-9]{2}-?[0-9]{2}[T ][0-9:.]+(?:Z|[-+][0-9:]+)?", re.IGNORECASE)
 

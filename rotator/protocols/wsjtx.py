@@ -16,10 +16,10 @@ LONGEST_PAUSE_S = 10
 """A file whose time has not changed for longer is stale. The next change only shows that it is being written again."""
 DAY_S = 86_400
 
-_LINE = re.compile(r"(\d\d)0?:(\d\d)0?:(\d\d)(?:0000)?, *([^,\n]*?)(?:0000)?, *([^,\n]*), *(\w+)\r?\n")
+_LINE = re.compile(r"(\d\d)0?:(\d\d)0?:(\d\d)(?:0000)?, *+([^,\n]*?)(?:0000)?, *+([^,\n]*), *(\w+)\r?\n")
 """Present versions pad with blanks (`198.9, 61.9`), older ones with zeros (`198.9,061.9`), and some of those pad the
 separators too: `120:340:560000,123.40000,0-5.3,Moon`."""
-_MISPLACED_MINUS = re.compile(r"0+(-)")
+_MISPLACED_MINUS = re.compile(r"(?<!0)0+(-)")
 """Below the horizon these zeros come before the sign: `0-5.3`."""
 
 

@@ -5,7 +5,6 @@ Knows what of the old file belongs to the box and not to its rotor, and stays. D
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from datetime import date
@@ -15,6 +14,7 @@ from typing import Any
 from rotator.config.edit import Change, NoChangeError, edited
 from rotator.config.model import Config
 from rotator.config.places import INSTALLED
+from rotator.exchange.foreign import toml_of
 from rotator.setup.machine import Machine, this_machine
 from rotator.setup.new_file import for_the_service, new_file
 from rotator.setup.question import Question
@@ -62,7 +62,7 @@ def fresh(text: str, answers: Mapping[str, object], path: Path, today: date, mac
     new = new_file({each.question.name: each.answer for each in found})
     new = f"# Written by the page on {today.isoformat()}.\n{new}"
     new = for_the_service(new) if path == INSTALLED else new
-    return edited(new, [change for name in THE_BOX for change in _kept((name,), tomllib.loads(text).get(name, {}))])
+    return edited(new, [change for name in THE_BOX for change in _kept((name,), toml_of(text).get(name, {}))])
 
 
 def _kept(place: tuple[str, ...], value: Any) -> list[Change]:

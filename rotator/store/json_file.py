@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
+from rotator.exchange.foreign import json_of
 from rotator.store.forms import Form, LaterFormError
 from rotator.store.whole import write_block, write_whole
 
@@ -34,10 +35,10 @@ def encode(form: Form, content: Mapping[str, object]) -> str:
 def decode(form: Form, text: str, parse: Parse[T]) -> T:
     """The value in the file's text. Raises LaterFormError; ValueError where the text is damaged, or of another form."""
     try:
-        return parse(form.brought_up(json.loads(text)))
+        return parse(form.brought_up(json_of(text)))
     except LaterFormError:
         raise
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as fault:
+    except (ValueError, KeyError, TypeError, AttributeError) as fault:
         raise ValueError(damage(fault)) from fault
 
 

@@ -7,10 +7,11 @@ answers. Does not know what is computed.
 from __future__ import annotations
 
 import asyncio
-import json
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
+
+from rotator.exchange.foreign import json_of
 
 ERROR_KEPT_S, TAKES_S = 10.0, 120.0
 LEAST_PRIORITY = ("nice", "-n", "19")
@@ -96,7 +97,7 @@ class Computed:
             async with asyncio.timeout(TAKES_S):
                 out, err = await process.communicate()
             if process.returncode in self._good:
-                return self._shaped(json.loads(out))
+                return self._shaped(json_of(out))
         except TimeoutError:
             return {"error": f"{self._named} are not computed within {TAKES_S:g} s"}
         except ValueError as fault:

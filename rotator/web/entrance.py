@@ -5,12 +5,12 @@ Knows headers, cookies and tokens, and the answers of a refusal. Does not know w
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
 from aiohttp import web
 
+from rotator.exchange.foreign import json_of
 from rotator.exchange.sources import PAGE, Source
 from rotator.protocols.methods import WrongValuesError
 from rotator.store.paired import Paired
@@ -116,8 +116,8 @@ async def values_of(request: web.Request, most: int = MOST_BODY) -> dict[str, ob
     """The request's JSON object; empty without a body. Raises WrongValuesError, HTTPRequestEntityTooLarge."""
     try:
         text = (await bytes_of(request, most)).decode("utf-8")
-        values = json.loads(text) if text.strip() else {}
-    except (ValueError, RecursionError):
+        values = json_of(text) if text.strip() else {}
+    except ValueError:
         raise WrongValuesError("the body must be a JSON object") from None
     if not isinstance(values, dict):
         raise WrongValuesError("the body must be a JSON object")

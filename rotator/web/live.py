@@ -16,6 +16,7 @@ from typing import Any
 
 from aiohttp import WSMsgType, web
 
+from rotator.exchange.foreign import json_of
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.panel_words import TURNS
 from rotator.web.holding import LEASE_S, Holding, Pictures
@@ -135,7 +136,7 @@ class Live:
     async def _send(self, socket: web.WebSocketResponse, hello: dict[str, Any], may_look: Callable[[], bool]) -> None:
         with dropped_if_slow(socket):
             async with asyncio.timeout(TAKES_S):
-                await socket.send_str(json.dumps({"hello": hello} | json.loads(self._made(self._clock()))))
+                await socket.send_str(json.dumps({"hello": hello} | json_of(self._made(self._clock()))))
             while not socket.closed:
                 await self._new.wait()
                 if not may_look():
@@ -168,7 +169,7 @@ class Live:
 def _act(text: bytes, holding: Holding | None, now_s: float) -> Answer:
     """Carry out a message. Returns the number of the press and why it was refused; empty: done."""
     try:
-        sign = json.loads(text)
+        sign = json_of(text)
     except ValueError:
         return {"refused": "that is no JSON"}
     match sign:

@@ -55,7 +55,7 @@ _GUIDE = object_of(
     {"prompt": TEXT, "state": TEXT, "turns": the("the motor turns: ask each second, or it stops", YES)},
 )
 _KEYS = re.compile(r"[-+0-9.,ynfbqrludRLUDs? \r]{1,16}")
-_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
+_LINK = re.compile(r"\[([^\[\]]*)\]\([^()]*\)")
 """A link in a page of the documentation. Only its text is shown, because the box has no such page."""
 
 
