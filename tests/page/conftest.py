@@ -135,7 +135,7 @@ def until_it_answers(station: Station) -> None:
             with urllib.request.urlopen(f"{station.url}/api/me", timeout=5.0) as answer:
                 assert answer.status == 200
                 return
-        except (urllib.error.URLError, ConnectionError):
+        except (urllib.error.URLError, ConnectionError, TimeoutError):
             assert station.process.poll() is None, (station.folder / "log").read_text()
             time.sleep(0.1)
     pytest.fail((station.folder / "log").read_text())

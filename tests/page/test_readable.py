@@ -88,6 +88,8 @@ def test_nothing_is_wider_than_the_screen_and_stop_is_on_it(start: Start, visit:
 
 # By the letters of the view's link. Of the Sky the table of passes is waited for, of Setup every step is opened.
 VIEWS = {"Antenna": ".board", "Sky": ".passes td", "Setup": ".step", "Help": ".doctor li", "Log": ".log td"}
+COMPUTED_MS = 150_000
+"""Passes and checks take their time on a busy machine."""
 BEYOND = """() => {
     const width = document.documentElement.clientWidth, seen = [];
     for (const one of document.querySelectorAll("body *:not(svg *)")) {
@@ -115,7 +117,7 @@ def test_larger_text_leaves_stop_on_the_screen(
     page.evaluate(f"document.documentElement.style.fontSize = '{percent}%'")
     for view, shows in VIEWS.items():
         page.get_by_role("link", name=view, exact=True).first.evaluate("link => link.click()")
-        page.locator(shows).first.wait_for()
+        page.locator(shows).first.wait_for(timeout=COMPUTED_MS)
         for step in page.locator(".step > summary").all():
             step.evaluate("summary => summary.click()")
         assert page.evaluate(BEYOND) == [], view

@@ -66,7 +66,7 @@ export const ready = ({ file, tables }) => !!(file?.file && tables);
 
 /** Lines that change: + and - at their beginning. */
 export function Diff({ rows, label }) {
-  return html`<pre class="diff" tabindex="0" role="region" aria-label=${label}>${rows.map((row) => html`<span class=${row[0] === "+" ? "new" : row[0] === "-" ? "old" : ""}>${row || " "}</span>`)}</pre>`;
+  return html`<pre class="diff" tabindex="0" role="region" aria-label=${label}>${rows.map((row) => html`<span class=${row[0] === "+" ? "new" : row[0] === "-" ? "gone" : ""}>${row || " "}</span>`)}</pre>`;
 }
 
 const at = (values, place) => place.reduce((inner, part) => inner?.[part], values);
