@@ -7,7 +7,8 @@ of senders, of stops that latch, or of faults.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from copy import copy
+from dataclasses import dataclass, replace
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
@@ -23,9 +24,20 @@ from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.route import Speeds
 from rotator.exchange.faults import Notice
 from rotator.exchange.flight_order import Fly, TakeTurn
-from rotator.exchange.orders import BOTH, Aim
+from rotator.exchange.orders import BOTH, S_BEFORE_P_S, Aim
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Flown
+
+
+@dataclass(frozen=True, slots=True)
+class _Paused:
+    """What was in force when a source stopped the antenna."""
+
+    source: Source
+    at_s: float
+    asked: tuple[Aim, float] | None
+    flight: Flight | None
+    pointing: Pointing
 
 
 class Aiming:
@@ -40,6 +52,8 @@ class Aiming:
         """The order in force, without the nudges, and its moment; None: no order is in force."""
         self._flight: Flight | None = None
         """The pass that is flown as planned; None: no pass is flown."""
+        self._paused: _Paused | None = None
+        """What the last stop has ended; None: it cannot go on."""
 
     @property
     def wanted(self) -> Aim:
@@ -50,6 +64,23 @@ class Aiming:
     def flown(self) -> Flown | None:
         """The planned pass that is flown."""
         return self._flight.flown if self._flight else None
+
+    def pause(self, source: Source, now_s: float) -> None:
+        """`source` stops what it ordered: note it, in case its next direction comes at once."""
+        self._paused = _Paused(source, now_s, self._asked, self._flight, copy(self._pointing))
+
+    def take_up(self, source: Source, now_s: float) -> None:
+        """A direction from `source` has come. Right after its own stop its stream goes on as though it had not sent
+        that; the motors have stopped, and start again where the direction needs it."""
+        paused, self._paused = self._paused, None
+        if paused is None or paused.source != source or now_s - paused.at_s > S_BEFORE_P_S:
+            self._pointing.interrupted = False
+            return
+        self._asked, self._flight, self._pointing = paused.asked, paused.flight, paused.pointing
+        # In the same cycle no relay has opened.
+        self._pointing.interrupted = now_s > paused.at_s
+        if self._flight is not None:
+            self._flight.begin_goals_anew()
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Point at this direction from now on. Raises Unreachable; then everything is as it was."""

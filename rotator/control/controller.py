@@ -238,6 +238,8 @@ class Controller:
                 self._authority.take(source, stopped=not goes_on)
 
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
+        if not latch and axes == BOTH and source == self._authority.controlled_by:
+            self._movements.pause(source, now_s)
         self._movements.stop(BOTH if self._authority.storm else axes)
         self._authority.stopped_axis(source, now_s)
         if len(axes) == len(self._axes):

@@ -67,6 +67,8 @@ class Movements:
         if not isinstance(order, Home):
             self._homing.clear()
         moved: Collection[Axis] = BOTH
+        if isinstance(order, Aim):
+            self._aiming.take_up(source, now_s)
         match order:
             case Aim() if self._aiming.flies_on(source, order, now_s):
                 pass
@@ -185,6 +187,11 @@ class Movements:
             # End the list now. Otherwise acknowledging the fault would start a motor.
             self.timed.halt()
             self._aiming.end_following()
+
+    def pause(self, source: Source, now_s: float) -> None:
+        """`source` is about to stop what it ordered itself: its next direction may go on with it."""
+        if not self.faulted:
+            self._aiming.pause(source, now_s)
 
     def stop(self, axes: tuple[Axis, ...]) -> None:
         """Stop these axes. No axis begins to home, and the antenna does not park, before the next order."""

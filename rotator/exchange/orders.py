@@ -13,6 +13,9 @@ from hw.ports import Axis, Direction
 from rotator.exchange.flight_order import Fly, TakeTurn
 
 BOTH = (Axis.AZIMUTH, Axis.ELEVATION)
+S_BEFORE_P_S = 0.3
+"""A logger sends a stop before each of its directions, some milliseconds earlier. A direction that follows the stop of
+the same connection within this time goes on with its stream. No person is that fast."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from rotator.exchange.flight_order import Fly, Stream, TakeTurn
-from rotator.exchange.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Speed
+from rotator.exchange.orders import S_BEFORE_P_S, Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Speed, Stop
 from rotator.exchange.program_clock import ProgramClock
 from rotator.exchange.sources import Source
 from rotator.orbits.chance import MOST_LIKELY, Known
@@ -58,6 +58,9 @@ class StreamWatch:
         self._used: tuple[str, ...] = ()
         """Names of the satellites that were recognised or flown, the latest first."""
         self._listeners: dict[Source, _Listener] = {}
+        self._stopped: dict[Source, tuple[float, _Listener]] = {}
+        """Streams that their own source has stopped, and when: its next direction goes on with them if it comes at
+        once."""
         self._planners: set[Source] = set()
         """Sources that plan by themselves: they name the turn of the overlap, or flip."""
 
@@ -95,6 +98,9 @@ class StreamWatch:
             ):
                 if source in self._planners:
                     return None
+                stopped_s, listener = self._stopped.pop(source, (-math.inf, None))
+                if listener is not None and utc_s - stopped_s <= S_BEFORE_P_S:
+                    self._listeners[source] = listener
                 if source not in self._listeners:
                     self._forget_silent(utc_s)
                     self._listeners[source] = _Listener(source)
@@ -111,10 +117,13 @@ class StreamWatch:
                 elif isinstance(order, Aim) and ((order.azimuth_deg or 0) > 360 or (order.elevation_deg or 0) > 90):
                     self._planners.add(source)
                 listener = self._listeners.pop(source, None)
+                if listener is not None and isinstance(order, Stop) and not order.latch:
+                    self._stopped[source] = utc_s, listener
                 followed = listener.recognised if listener else None
                 return Departed(source, followed.satellite) if followed else None
 
     def _forget_silent(self, utc_s: float) -> None:
+        self._stopped = {source: each for source, each in self._stopped.items() if each[0] > utc_s - S_BEFORE_P_S}
         self._listeners = {
             source: each for source, each in self._listeners.items() if each.last_s > utc_s - LONGEST_GAP_S
         }

@@ -25,6 +25,8 @@ SURE_AFTER_S = 45.0
 """A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
+LONGEST_LEAD_S = 15.0
+"""A path is known well enough for so long, also from orders in whole degrees (`track`)."""
 LEVEL_DEG, LEAVES_DEG = 1.0, 10.0
 """A stream waits at the horizon for a rise only while its orders are this low, and each this near to the one before."""
 
@@ -45,12 +47,14 @@ class Pointing:
         self._routed_s: float | None = None
         self._led_until_s = -math.inf
         """Until then a stream at the horizon stays on the turn that the pass needs for whose rise it waits."""
+        self.interrupted = False
+        """A stop comes before each order, and ends each run within a second: no step of a plan can be made."""
         self.wanted = Aim(None, None)
         """The direction last ordered, as ordered: the display's SAT."""
 
     def forget(self, *, azimuth: bool = True, elevation: bool = True) -> None:
         """Forget the order on these axes."""
-        self._track.clear()
+        self._track = Track()  # not cleared: a copy of this may go on with it
         self._way = None
         self._led_until_s = -math.inf
         kept = self.wanted
@@ -174,8 +178,15 @@ class Pointing:
         self._choose_way(now_s, speeds)
         if not self._on_sky:
             return self._standing(now_s, settled=False)
+        if self.interrupted:
+            return self._goals.towards(self._way, *self._track.direction(now_s + self._lead_s(now_s)))
         directions = [self._track.direction(now_s + offset_s) for offset_s in OFFSETS_S]
         return self._goals.along(now_s, self._way, directions)
+
+    def _lead_s(self, now_s: float) -> float:
+        """How far ahead of the target the antenna waits for it, so that it is as much too early as too late."""
+        pace_dps = great_circle_deg(*self._track.direction(now_s), *self._track.direction(now_s + 1.0))
+        return min(self._goals.tolerance_deg / 2 / max(pace_dps, 1e-3), LONGEST_LEAD_S)
 
     def _is_over(self, aim: Aim) -> bool:
         """Whether the order names the way over the top, and elevation reaches it."""

@@ -30,6 +30,10 @@ class WayGoals:
         self._elevation_tolerance_deg = elevation_tolerance_deg
         self._on_sky = on_sky
 
+    @property
+    def tolerance_deg(self) -> float:
+        return min(self._azimuth_tolerance_deg, self._elevation_tolerance_deg)
+
     def at(self, azimuth_deg: float, elevation_deg: float) -> Goals:
         """To these axis angles."""
         return (
