@@ -281,6 +281,18 @@ def test_another_order_ends_it(followed: StreamWatch, order: Order) -> None:
     assert followed.followed(PROGRAM) is None
 
 
+@pytest.mark.parametrize(("late_s", "goes_on"), [(0.005, True), (0.29, True), (0.5, False)])
+def test_a_stop_right_before_its_next_order_does_not_end_it(
+    followed: StreamWatch, late_s: float, goes_on: bool
+) -> None:
+    """As from a logger that sends `S` before each `P`."""
+    followed.hear(PROGRAM, Stop(), TOP_S)
+    assert followed.followed(PROGRAM) is None, "a stop is a stop until then"
+    here = SATELLITES["ISS"].sight(TOP_S + late_s)
+    followed.hear(PROGRAM, Aim(whole(here.azimuth_deg), whole(here.elevation_deg)), TOP_S + late_s)
+    assert (followed.followed(PROGRAM) is not None) is goes_on
+
+
 @pytest.mark.parametrize("order", [Speed(2), Stop()])
 @pytest.mark.parametrize("sender", [Source("rotctld", 9)])
 def test_what_others_order_does_not(followed: StreamWatch, sender: Source, order: Order) -> None:
