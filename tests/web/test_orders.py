@@ -55,6 +55,34 @@ def test_a_paired_browser_points_the_antenna_and_one_that_is_not_may_only_stop_i
     asyncio.run(main())
 
 
+@pytest.mark.parametrize("body", [b"x" * 100_000, b"{", b'{"axis": "tilt"}', b"\xff\0", b""])
+@pytest.mark.parametrize("kind", ["application/json", "text/plain", "image/png"])
+def test_a_stop_counts_with_any_body(page_box: Start, body: bytes, kind: str) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            async with box.http.post(f"{box.url}/api/stop", data=body, headers={"Content-Type": kind}) as answer:
+                assert (answer.status, await answer.json()) == (200, {"ok": True})
+            await box.until(lambda: box.status.latched == "page")
+
+    asyncio.run(main())
+
+
+@pytest.mark.parametrize(
+    "said", ['{"stop": true}', '{"stop":1}', "STOP", '{"stop": tru', b"stop", '{"stop":true}' + " " * 999]
+)
+def test_so_does_a_damaged_stop_on_the_live_connection(page_box: Start, said: str | bytes) -> None:
+    async def main() -> None:
+        async with page_box() as box, box.http.ws_connect(f"{box.url}/api/live") as socket:
+            for harmless in ('{"stop": false}', '{"let_go": true}'):
+                await socket.send_str(harmless)
+            await socket.receive()
+            assert box.status.latched == ""
+            await (socket.send_bytes(said) if isinstance(said, bytes) else socket.send_str(said))
+            await box.until(lambda: box.status.latched == "page")
+
+    asyncio.run(main())
+
+
 def test_a_token_does_for_a_program_what_a_cookie_does_for_a_browser(page_box: Start, tmp_path: Path) -> None:
     async def main() -> None:
         async with page_box() as box:
