@@ -68,8 +68,8 @@ DATAGRAMS = st.lists(
 
 
 def number(text: bytes) -> float | None:
-    good = re.fullmatch(rb"\s*([+-]?\d{1,3})([.,]\d{0,9})?\s*", text, re.ASCII)
-    return float(good[0].replace(b",", b".")) if good else None
+    good = re.fullmatch(rb"\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?),?\s*", text, re.ASCII)
+    return float(good[1].replace(b",", b".")) if good else None
 
 
 def direction(azimuth: float | None, elevation: float | None) -> Iterator[Order]:
@@ -103,7 +103,7 @@ def n1mm_motions(datagram: bytes) -> Iterator[Order]:
 
 
 def macdoppler_motions(datagram: bytes) -> Iterator[Order]:
-    report = re.search(rb"\[AzEl Rotor Report:Azimuth:([^,]*), Elevation:([^,\]]*)\]\s*$", datagram)
+    report = re.search(rb"\[AzEl Rotor Report:Azimuth:([^\]]*), Elevation:([^\]]*)\]\s*$", datagram)
     if report and number(report[1]) is not None and number(report[2]) is not None:
         yield from direction(number(report[1]), number(report[2]))
 

@@ -117,23 +117,26 @@ def easycomm_motions(heard: bytes, level: int) -> list[Order]:
                 motions.append(TURNS[bare[1:2]])
             if level >= 2 and bare == b"PARK":
                 motions.append(Park())
+            motions += [aim for azimuth in azimuths for aim in direction(azimuth, None)]
+            motions += [aim for elevation in elevations for aim in direction(None, elevation)]
             motions += pairs
     return motions
 
 
 def angles(name: bytes, line: bytes) -> list[float]:
     """The numbers behind this name, wherever it is not the end of a word."""
-    numbers = re.findall(rb"(?<![A-Z])" + name + rb"([-+]?(?:\d+[.,]?\d*|[.,]\d+))", line)
+    numbers = re.findall(rb"(?<![A-Z])" + name + rb" *([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:E[-+]?\d+)?)", line)
     return [float(number.replace(b",", b".")) for number in numbers]
 
 
 def spid_motions(heard: bytes, protocol: str) -> list[Order]:
     """Exactly what a SPID controller is to do."""
-    stands = rb".{10}[\x0f\x1f]"
-    moves = rb"|(?P<turn>[\x01\x02\x04\x05\x06\x08\x09\x0a]).{9}\x14" if protocol == "md01" else b""
+    # A stop may have another last byte, or nothing but zeros and a command byte of lower bits.
+    stands = rb".{10}(?:\x0f.|\x1f )|\0{10}[\0-\x0f] "
+    moves = rb"|(?P<turn>[\x01\x02\x04\x05\x06\x08\x09\x0a]).{9}\x14 " if protocol == "md01" else b""
     elevation = rb".{6}" if protocol == "rot1prog" else rb".(?P<el>\d{4})."
     motions: list[Order] = []
-    for frame in re.finditer(rb"W(?:(?P<az>\d{4})" + elevation + rb"/|" + stands + moves + rb") ", heard, re.DOTALL):
+    for frame in re.finditer(rb"W(?:(?P<az>\d{4})" + elevation + rb"/ |" + stands + moves + rb")", heard, re.DOTALL):
         found = frame.groupdict()
         if found["az"] and protocol == "rot1prog":
             motions += direction(int(found["az"]) // 10 - 360, None)
@@ -152,12 +155,15 @@ def dcu1_motions(heard: bytes) -> list[Order]:
     target: float | None = None
     for command in re.finditer(rb"([^;\r]*)([;\r])", re.sub(rb"(\.[^;\r]*\r);", rb"\1", heard)):
         text = command[1].lstrip(bytes(range(0x21)) + bytes(range(0x7F, 0x100)))
-        good = re.fullmatch(rb"AP1(\d\d\d)(\.\d)?", text)
+        good = re.fullmatch(rb"AP1(\d\d\d)(\.\d*)?", text)
+        if text.startswith(b"AP"):
+            target = None
         if good and float(text[3:]) <= 360:
             target = float(text[3:])
         if target is not None and ((good and float(text[3:]) <= 360 and command[2] == b"\r") or text == b"AM1"):
             motions.append(Aim(target, None))
-        if text == b"AS1" or (not text and command[2] == b";"):
+        stops = re.match(rb"AS|[^A-Z0-9]*S([^A-Z0-9]|[^0-9]*$)", text.upper()) or b"STOP" in text.upper()
+        if stops or (not text and command[2] == b";"):
             target = None
     return motions
 
