@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+import hypothesis.strategies as st
 import pytest
+from hypothesis import given, settings
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.reach import UNSEEN_LAG_S
 from rotator.control.sky.mount import Range, Sector
 from rotator.exchange.faults import FaultKind, Missing
 from rotator.exchange.orders import Aim, Home, Jog, Stop
+from tests.control.conftest import Desk
+from tests.search import examples
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
@@ -38,7 +43,7 @@ def test_a_jog_ends_before_it_with_room_for_the_coast(beside: Any) -> None:
 
 def test_a_jog_that_was_held_back_does_not_go_on_by_itself(beside: Any) -> None:
     beside.step(Jog(AZ, PLUS))
-    beside.run(9.0)
+    beside.run(7.0)
     assert notices(beside) == ["stopped before the chimney"]
     beside.run(4.0)
     assert notices(beside) == []
@@ -54,6 +59,36 @@ def test_two_jogs_at_once_do_not_cut_its_corner(new_desk: Any) -> None:
         desk.step()
         assert not (desk.angle_deg[AZ] > 100 and desk.angle_deg[EL] < 35)
     assert desk.angle_deg[AZ] < 100 or desk.angle_deg[EL] > 35, "one of the two has ended"
+
+
+@given(
+    lag_s=st.floats(0.02, UNSEEN_LAG_S),
+    from_deg=st.floats(45.0, 97.0),
+    order=st.sampled_from([Jog(AZ, PLUS), Jog(AZ, PLUS, 1.0), Jog(AZ, PLUS, 0.4), Aim(99.0, 10.0), Aim(115.0, 10.0)]),
+)
+@settings(max_examples=examples(160), deadline=None)
+def test_no_coast_enters_it_however_short_the_file_calls_it(lag_s: float, from_deg: float, order: Any) -> None:
+    """The first run, the next ones while its coast is being learnt, and those after them."""
+    desk = Desk(at=(from_deg, 10.0), sectors=(CHIMNEY,))
+    desk.LAG_S = lag_s  # the file says 0.17
+    desk.step()
+    for _ in range(4):
+        desk.step(order)
+        for _ in range(160):
+            desk.step()
+            assert desk.angle_deg[AZ] < 100.0 or desk.angle_deg[EL] > 35.0
+
+
+def test_once_its_coast_was_seen_it_goes_as_near_as_that_allows(new_desk: Any) -> None:
+    desk = new_desk(at=(60.0, 10.0), sectors=(CHIMNEY,))
+    desk.step()
+    desk.step(Jog(AZ, PLUS))
+    desk.run(12.0)
+    first_deg = desk.angle_deg[AZ]
+    desk.step(Jog(AZ, PLUS))
+    desk.run(12.0)
+    assert first_deg < 93.0
+    assert 94.0 < desk.angle_deg[AZ] < 98.0
 
 
 def inside(desk: Any) -> Any:

@@ -57,6 +57,8 @@ class Motion:
 
     def __init__(self, motors: Mapping[Direction, Motor]) -> None:
         self.motors = dict(motors)
+        self.coasted_s: dict[Direction, float] = {}
+        """The longest coast at full speed that was seen, as the lag that explains it."""
         self.angle_deg: float | None = None
         self._speed_dps = 0.0
         self._at_s = 0.0
@@ -208,5 +210,7 @@ class Motion:
                 speed_dps += trust * (gone_deg / (landing.off_s - run.started_s) - speed_dps)
         if landing.speed_share > FULL_SPEED:
             missed_deg = (rest_deg - landing.wanted_deg) * run.direction
+            seen_s = (coast_deg + missed_deg) / motor.speed_dps
+            self.coasted_s[run.direction] = max(self.coasted_s.get(run.direction, 0.0), seen_s)
             coast_deg = min(max(coast_deg + LEARN_SHARE * missed_deg, 0.0), 3.0 * speed_dps)
         self.motors[run.direction] = Motor(speed_dps, coast_deg)

@@ -1,7 +1,8 @@
 """How far an axis may go before a command can end that: from where it may be now to where it may come to rest.
 
 Knows speeds, and how far a motor runs on. Gives bounds, not guesses: the motor may be 1.5 times as fast as the file
-says, and the axis has moved on since the latest reading. Knows no goal and no sector.
+says, coasts as long as the box could bear until it has been seen to coast, and the axis has moved on since the latest
+reading. Knows no goal and no sector.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from hw.ports import Direction
-from rotator.control.axis.motion import Motion
+from rotator.control.axis.motion import RESTS_AFTER_S, Motion
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import SwitchedSettings
@@ -22,6 +23,9 @@ from rotator.exchange.motor import Motor
 
 FASTER_THAN_FILE, FASTER_THAN_LEARNT = 1.5, 1.2
 """How many times faster a motor may be than the file says, or than its runs have shown."""
+UNSEEN_LAG_S = RESTS_AFTER_S
+"""So long a motor may take to lose its speed that was never seen to: one that takes longer still turns when the box has
+taken it to rest, and is a fault. How short the file calls its coast proves nothing."""
 RELAY_OPENS_S = 0.03
 """A relay opens within this time."""
 START_S = 0.15
@@ -55,16 +59,22 @@ class Bounds:
         return self.speed_dps * START_S + self.coast_deg
 
 
-def bounds(described: Motor, learnt: Motor) -> Bounds:
+def bounds(described: Motor, learnt: Motor, coasted_s: float) -> Bounds:
+    """`coasted_s`: the longest lag that was seen."""
     fastest_dps = max(FASTER_THAN_FILE * described.speed_dps, FASTER_THAN_LEARNT * learnt.speed_dps)
-    return Bounds(fastest_dps, max(described.lag_s, learnt.lag_s))
+    return Bounds(fastest_dps, max(described.lag_s, learnt.lag_s, coasted_s))
 
 
 class Reach:
     def __init__(self, settings: SwitchedSettings) -> None:
         self._described = settings.motor
-        self._learnt: dict[Direction, Motor] = {}
-        """The motors as they were learnt when `_known` was computed."""
+        kept = zip((Direction.PLUS, Direction.MINUS), settings.learnt or (), strict=False)
+        self._coasted_s = {
+            way: 0.0 for way, motor in kept if not math.isclose(motor.lag_s, settings.motor.lag_s, rel_tol=1e-3)
+        }
+        """The directions whose coast an earlier run has learnt: what it learnt is all there is."""
+        self._learnt: tuple[dict[Direction, Motor], dict[Direction, float]] = {}, {}
+        """The motors and coasts when `_known` was computed."""
         self._known: dict[Direction, Bounds] = {}
         homing = settings.homing
         self._step_deg = homing.period_s * settings.motor.speed_dps if homing else 0.0
@@ -93,9 +103,13 @@ class Reach:
         return _further(span, run.direction, motor.speed_dps * max(0.0, run.until_s - now_s) + coast_deg)
 
     def _bounds(self, motion: Motion) -> dict[Direction, Bounds]:
-        if motion.motors != self._learnt:
-            self._learnt = dict(motion.motors)
-            self._known = {way: bounds(self._described, motor) for way, motor in motion.motors.items()}
+        if (motion.motors, motion.coasted_s) != self._learnt:
+            self._learnt = dict(motion.motors), dict(motion.coasted_s)
+            coasted_s = self._coasted_s | motion.coasted_s
+            self._known = {
+                way: bounds(self._described, motor, coasted_s.get(way, UNSEEN_LAG_S))
+                for way, motor in motion.motors.items()
+            }
         return self._known
 
 

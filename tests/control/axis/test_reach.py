@@ -11,7 +11,16 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motion
-from rotator.control.axis.reach import FASTER_THAN_FILE, RELAY_OPENS_S, START_S, Bounds, Reach, bounds, lost
+from rotator.control.axis.reach import (
+    FASTER_THAN_FILE,
+    RELAY_OPENS_S,
+    START_S,
+    UNSEEN_LAG_S,
+    Bounds,
+    Reach,
+    bounds,
+    lost,
+)
 from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Sensing
@@ -38,6 +47,7 @@ class Reached:
             SwitchedSettings(Axis.AZIMUTH, Range(0.0, 450.0), 4.0, DESCRIBED, Window(-1e9, 1e9), None, homing=homing)
         )
         self.motion = Motion({PLUS: DESCRIBED, MINUS: DESCRIBED})
+        self.motion.coasted_s = {PLUS: 0.2, MINUS: 0.2}
         self._sensing = Sensing(Axis.AZIMUTH, Window(-1e9, 1e9), Calibration(((0.0, 0.0), (450.0, 450.0))))
         self.relay_state = RelayState()
         self.now_s = 100.0
@@ -73,9 +83,9 @@ class Reached:
 
 
 def test_a_motor_is_bounded_by_what_the_file_says_and_by_what_it_has_shown() -> None:
-    assert bounds(Motor(6.0, 1.5), Motor(6.0, 1.5)) == Bounds(9.0, 0.25)
-    assert bounds(Motor(6.0, 1.5), Motor(10.0, 5.0)) == Bounds(12.0, 0.5)
-    assert bounds(Motor(6.0, 3.0), Motor(2.0, 0.1)) == Bounds(9.0, 0.5)
+    assert bounds(Motor(6.0, 1.5), Motor(6.0, 1.5), 0.0) == Bounds(9.0, 0.25)
+    assert bounds(Motor(6.0, 1.5), Motor(10.0, 5.0), 0.0) == Bounds(12.0, 0.5)
+    assert bounds(Motor(6.0, 3.0), Motor(2.0, 0.1), 0.0) == Bounds(9.0, 0.5)
     assert Bounds(9.0, 0.2).coast_deg == pytest.approx(9.0 * 0.23)
     assert Bounds(9.0, 0.2).stopping_room_deg == pytest.approx(9.0 * 0.38)
 
@@ -158,6 +168,15 @@ def test_a_count_may_be_off_by_a_pulse() -> None:
     swept = Reached(counted=True).swept()
     assert (swept.min_deg, swept.max_deg) == (pytest.approx(195.0), pytest.approx(205.0))
     assert Reached(counted=True).stopping_room_deg - Reached().stopping_room_deg == pytest.approx(5.0)
+
+
+@BOTH_WAYS
+def test_a_coast_that_was_never_seen_may_be_as_long_as_the_box_bears(way: Direction) -> None:
+    reached = Reached()
+    del reached.motion.coasted_s[way]
+    assert reached.stopping_room_deg == pytest.approx(9.0 * (START_S + UNSEEN_LAG_S + RELAY_OPENS_S))
+    reached.motion.coasted_s[way] = 0.4
+    assert reached.stopping_room_deg == pytest.approx(9.0 * (START_S + 0.4 + RELAY_OPENS_S))
 
 
 def test_its_room_is_that_of_its_faster_direction() -> None:
