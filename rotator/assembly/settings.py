@@ -154,6 +154,7 @@ def axis_settings(
         window=ANYTHING if in_degrees else window,
         calibration=calibration,
         sensor=config.angle(axis).sensor,
+        behind_s=config.angle(axis).behind_s,
         missing=EVERYTHING if commissioning else lacks,
         source=source(config, axis),
         longest_run_s=table.longest_run_s,

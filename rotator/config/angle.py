@@ -21,5 +21,7 @@ class Angle:
     """A pot on the converter is read."""
     sensor: str = "pot"
     """What reads it, in a word for the messages of faults."""
+    behind_s: float = 0.0
+    """A reading shows a place where the axis was at most so long ago: the sensor filters, or averages."""
     by: str = ""
     """The source of the degrees, in words for the user; empty for a calibration."""

@@ -14,6 +14,8 @@ from rotator.config.angle import Angle
 from rotator.config.i2c import I2CChip
 from rotator.config.table import I2CAddress, I2CBus, Table
 
+MPU6050_BEHIND_S = 0.32
+"""It averages over 0.3 s, after a filter of 14 ms. While the motor shakes it, older readings alone count."""
 Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
 
@@ -45,7 +47,9 @@ class SensorTable(Table):
             case "as5600":
                 return Angle(AngleSource.MEASURED, in_degrees=False, sensor="encoder")
             case "mpu6050":
-                return Angle(AngleSource.MEASURED, sensor="tilt sensor", by="told by gravity")
+                return Angle(
+                    AngleSource.MEASURED, sensor="tilt sensor", by="told by gravity", behind_s=MPU6050_BEHIND_S
+                )
 
     @property
     def i2c(self) -> tuple[int, int] | None:

@@ -13,7 +13,7 @@ from collections import deque
 
 from hw.ports import Direction
 from rotator.control.axis.readings import Condition
-from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.relay_state import BLINK_S, RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.sky.mount import Range
 from rotator.exchange.motor import Trust
@@ -24,6 +24,8 @@ SURE_PAUSES = 1.4
 """A contact is silent after this many times the longest pause between two changes of a run."""
 CHANGE_READ_S = 0.1
 """A change of the contact has been read after this time."""
+LONGEST_SHOW_S = 2.0
+"""No relay waits longer for its own contact: pulses that are further apart show a weld over several pauses."""
 UNSURE_PERIODS = 2.0
 """Where a change of the contact may have been counted the wrong way, no stop may be nearer than this."""
 BLIND_PERIODS = 3.0
@@ -81,11 +83,17 @@ class ContactWatch:
         """Whether a relay has been closed again since it was doubted."""
 
     def waits(self, direction: Direction) -> bool:
-        """Whether that relay has to wait, because nothing has shown yet that its opposite is open."""
+        """Whether that relay has to wait: nothing has shown yet that its opposite is open, or it has not been off for
+        long enough to show that it has welded itself. One closing after the other would hide that.
+        """
         if self._relays.direction is direction:
             return False
         # A late change may be the first of a powered motor: the contact must be silent first.
-        return not self.looked or self._late_changes > 0 or self._trusts.of(Direction(-direction)) is not Trust.OPEN
+        if not self.looked or self._late_changes > 0 or self._trusts.of(Direction(-direction)) is not Trust.OPEN:
+            return True
+        shows_s = min(self._coast_s + self._period_s, LONGEST_SHOW_S)
+        pending = direction is self._relays.last and self._trusts.of(direction) is Trust.UNSEEN and not self.homing
+        return pending and BLINK_S <= self._relays.off_for_s(self._read_s) < shows_s
 
     @property
     def settles(self) -> bool:

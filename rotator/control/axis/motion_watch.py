@@ -25,7 +25,7 @@ class MotionWatch:
     """The `RelayWatch` of an axis whose angle is measured.
 
     `placed`: the angles are calibrated, and the limits known. Without that only the relays are watched. `look`: nothing
-    has been seen of the axis in this run of the program.
+    has been seen of the axis in this run of the program. `behind_s`: how old what a reading shows may be.
     """
 
     def __init__(
@@ -38,16 +38,18 @@ class MotionWatch:
         trusts: Trusts,
         placed: bool,
         look: bool,
+        behind_s: float = 0.0,
     ) -> None:
         self._axis = axis
         self._limits = limits
+        self._behind_s = behind_s
         self._master = master
         self._trusts = RelayTrusts(trusts)
         self._begin(motors, placed=placed, look=look)
 
     def _begin(self, motors: Mapping[Direction, Motor], *, placed: bool, look: bool) -> None:
         self._placed = placed
-        self._seen = ObservedMotion(self._axis, self._limits, motors)
+        self._seen = ObservedMotion(self._axis, self._limits, motors, behind_s=self._behind_s)
         self._driven = DrivenWatch(self._seen)
         self._opening = OpeningWatch(self._seen, self._trusts, placed=placed, look=look)
         self._weld = WeldWatch(self._seen, self._opening, self._trusts, master=self._master)

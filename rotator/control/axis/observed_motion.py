@@ -33,10 +33,14 @@ class SpeedWindow:
 
 
 class ObservedMotion:
-    """`motors` is read, never changed: what is learnt meanwhile counts from the next run on."""
+    """`motors` is read, never changed: what is learnt meanwhile counts from the next run on.
 
-    def __init__(self, axis: Axis, limits: Range, motors: Mapping[Direction, Motor]) -> None:
+    `behind_s`: a reading shows a place where the axis was at most so long ago.
+    """
+
+    def __init__(self, axis: Axis, limits: Range, motors: Mapping[Direction, Motor], *, behind_s: float = 0.0) -> None:
         self.axis = axis
+        self.behind_s = behind_s
         self.limits = limits
         self.motors = motors
         self.trend = Trend()
@@ -77,7 +81,7 @@ class ObservedMotion:
         shown, relays, lag_s = self.shown_dps is not None, self.relays, self.motor.lag_s
         width_s = min(max(window.least_s, self.trend.window_s(error_dps)), window.most_s if shown else window.first_s)
         turns_s = relays.begun_s + RELAY_SETTLES_S + lag_s
-        rests_s = relays.since_s + RELAY_SETTLES_S + (2.0 * lag_s + 3.0 * RELAY_SETTLES_S)
+        rests_s = relays.since_s + RELAY_SETTLES_S + (2.0 * lag_s + 3.0 * RELAY_SETTLES_S) + self.behind_s
         from_s = max(turns_s if relays.closed else rests_s, self.trend.since_s)
         if at_s - width_s < from_s:
             return None

@@ -3,9 +3,12 @@
 A relay that has welded keeps its motor powered: the axis goes on as before, or is held by a stop. So the relay counts
 as open only after readings that no powered motor makes:
 
-* the axis turned when the relay was switched off, and is slower since, inside its limits (speeds are compared with
-  what this run measured, not with what the file says);
+* the axis turned when the relay was switched off, and is slower since, so far inside its limits that it cannot have met
+  a stop (speeds are compared with what this run measured, not with what the file says);
 * or it stands, inside its limits, after a run in which it was seen to turn.
+
+A sensor that filters or averages shows the axis late, and a sudden stop as a slow one: what it shows is counted as far
+ahead as a motor turns in that time.
 
 Otherwise the relay is in doubt until a run in its direction ends as it should, or a person has looked at it. Readings
 without a supply (the master is open) do not count. Before the first relay of a run of the program closes, the axis must
@@ -19,7 +22,7 @@ from collections import deque
 
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import ObservedMotion
-from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.relay_state import BLINK_S, RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.axis.run_on import RunOn
 from rotator.control.axis.seen_run import (
@@ -38,6 +41,8 @@ from rotator.exchange.motor import Trust
 DOUBTS_AFTER_S = 0.5
 GAP_S = 0.5
 """No command to a relay holds for longer without being renewed."""
+MEAN_BEHIND_S = 0.05
+"""The mean of three readings lies so far behind the latest one."""
 MOVED_DEG, MOVED_NOISES = 0.5, 4.0
 """An axis has been moved when it is this far from where it stood, and this many times the noise."""
 
@@ -88,9 +93,14 @@ class OpeningWatch:
         return stood and not {Trust.DOUBTED, Trust.WELDED}.isdisjoint(self._trusts.both)
 
     def waits(self, direction: Direction) -> bool:
-        """Whether that relay has to wait, because the readings have not yet shown that its opposite is open."""
+        """Whether that relay has to wait: the readings have not yet shown that its opposite is open, or that it has
+        opened itself. One closing after the other would hide that it has welded.
+        """
         if not self.looked or self._trusts.of(Direction(-direction)) is not Trust.OPEN:
             return True
+        relays = self._seen.relays
+        if direction is relays.last and self._trusts.of(direction) is Trust.UNSEEN:
+            return relays.off_for_s(self._seen_s) >= BLINK_S
         # The axis is turning the other way, perhaps by the opposite relay: wait.
         slope = self._seen.trend.slope(self._seen.trend.last_s - END_WINDOWS_S[1])
         powered_dps = POWERED_SHARE * self._run.motor_dps
@@ -175,7 +185,8 @@ class OpeningWatch:
     def _note_slowing(self, at_s: float, ended: EndedRun, line: Slope) -> None:
         if self._run_on.ran_on or self._trusts.of(ended.direction) is Trust.OPEN:
             return
-        free = self._obstacles.free(line.way, self._place_deg)
+        ahead_deg = (self._run_on.full_dps(ended) + line.error_dps) * (self._seen.behind_s + MEAN_BEHIND_S)
+        free = self._obstacles.free(line.way, self._place_deg + line.way * ahead_deg)
         if self._run_on.slows(at_s, self._place_deg, ended, line, free=free):
             self._trusts.seen_open(ended.direction)
 
@@ -226,7 +237,7 @@ class OpeningWatch:
     @property
     def _doubts_after_s(self) -> float:
         """An axis stands this long before a doubt is raised: more readings may still show that it has moved."""
-        return DOUBTS_AFTER_S + 2.0 * (self._run.unseen_s - HELD_UNSEEN_S)
+        return DOUBTS_AFTER_S + 2.0 * (self._run.unseen_s - HELD_UNSEEN_S) + self._seen.behind_s
 
     @property
     def _moved_deg(self) -> float:

@@ -140,5 +140,8 @@ def _new_watch(settings: SwitchedSettings, motors: Mapping[Direction, Motor], *,
     axis, limits, homing = settings.axis, settings.limits, settings.homing
     master, trusts, look = settings.master, settings.trusts, settings.look
     if homing is None:
-        return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
+        behind_s = settings.behind_s
+        return MotionWatch(
+            axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look, behind_s=behind_s
+        )
     return RunWatch(axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look)

@@ -126,8 +126,10 @@ class SeenRun:
     def stands(self, at_s: float, since_s: float) -> bool:
         """Whether the readings since this moment show that no powered motor turns the axis."""
         trend = self._seen.trend
-        window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(self.powered_dps / 6.0)), LONGEST_WINDOW_S)
-        if at_s - window_s < max(since_s, trend.since_s):
+        window_s = max(SHORTEST_WINDOW_S, trend.window_s(self.powered_dps / 6.0))
+        # The line counts as flat while the axis still moved in its first half: its last readings must be later.
+        window_s = min(window_s + 2.0 * self._seen.behind_s, LONGEST_WINDOW_S)
+        if at_s - window_s < max(since_s + self._seen.behind_s, trend.since_s):
             return False
         slope = trend.slope(at_s - window_s)
         return slope is not None and abs(slope.speed_dps) + slope.error_dps < self.powered_dps

@@ -46,6 +46,8 @@ class SwitchedSettings:
     """The axis must be seen to stand before its first relay closes."""
     sensor: str = "pot"
     """What reads the angle, in a word for the messages of faults."""
+    behind_s: float = 0.0
+    """A reading shows a place where the axis was at most so long ago: the sensor filters, or averages."""
     attended: bool = False
     """A person watches the antenna, and drives it to its stops on purpose. A relay in doubt forbids nothing then."""
     tries: Tries = NO_TRIES

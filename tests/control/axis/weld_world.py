@@ -6,6 +6,7 @@ Knows the simulated motor and the relays' dead time, lease and master, as the re
 from __future__ import annotations
 
 import random
+from collections import deque
 from dataclasses import dataclass, field
 
 from firmware_sim.parts.motor import MotorSpec, SimMotor
@@ -68,7 +69,37 @@ class Relays:
             self.motor.supply = on
 
 
+@dataclass
+class Lens:
+    """A sensor that shows its axis late: the mean of its latest readings, a low pass before them, a delay after."""
+
+    averaged: int = 1
+    low_pass_s: float = 0.0
+    delayed: int = 0
+    """By so many cycles."""
+    _passed_deg: float | None = None
+    _means_deg: deque[float] = field(default_factory=deque)
+    _latest_deg: deque[float] = field(default_factory=deque)
+
+    def behind_s(self, cycle_s: float) -> float:
+        """What it shows is at most so old. A low pass keeps less than a hundredth after five of its time constants."""
+        return (self.averaged - 1 + self.delayed) * cycle_s + 5.0 * self.low_pass_s
+
+    def see(self, angle_deg: float, cycle_s: float) -> float:
+        before_deg = angle_deg if self._passed_deg is None else self._passed_deg
+        self._passed_deg = before_deg + (angle_deg - before_deg) * cycle_s / (cycle_s + self.low_pass_s)
+        self._latest_deg.append(self._passed_deg)
+        while len(self._latest_deg) > self.averaged:
+            self._latest_deg.popleft()
+        self._means_deg.append(sum(self._latest_deg) / len(self._latest_deg))
+        while len(self._means_deg) > self.delayed + 1:
+            self._means_deg.popleft()
+        return self._means_deg[0]
+
+
 class WeldWorld:
+    cycle_s = CYCLE_S
+
     def __init__(self, seed: int, *, healthy: bool, calibrated: bool) -> None:
         self.chance = chance = random.Random(f"{seed} {healthy} {calibrated}")
         self.healthy, self._calibrated = healthy, calibrated
@@ -89,6 +120,7 @@ class WeldWorld:
         self._relays.supply(on=False, now_s=self.now_s)
         self._weld: tuple[int, float] | None = None
         self.faults: set[str] = set()
+        self.lens = Lens()
         self.axis = self._program(ALL_OPEN)
 
     def play(self, seconds: float) -> None:
@@ -114,8 +146,9 @@ class WeldWorld:
             master=self._relays.master,
             trusts=trusts,
             look=True,
+            behind_s=self.lens.behind_s(self.cycle_s),
         )
-        return SwitchedAxis(settings, lease_s=LEASE_S, period_s=CYCLE_S)
+        return SwitchedAxis(settings, lease_s=LEASE_S, period_s=self.cycle_s)
 
     def _order(self) -> None:
         chance, way = self.chance, self.chance.choice((PLUS, MINUS))
@@ -152,12 +185,12 @@ class WeldWorld:
             self.motor.welded, self._weld = 0, None
 
     def cycle(self) -> None:
-        self._relays.expire(self.now_s + CYCLE_S, self.now_s)
-        self.now_s += CYCLE_S
+        self._relays.expire(self.now_s + self.cycle_s, self.now_s)
+        self.now_s += self.cycle_s
         self.motor.advance(self.now_s)
         if self._weld and self.motor.drive == self._weld[0] and self.now_s >= self._weld[1]:
             self.motor.welded, self._weld = self._weld[0], None
-        read_deg = self.motor.shaft_deg + self.chance.gauss(0.0, self._noise_deg)
+        read_deg = self.lens.see(self.motor.shaft_deg + self.chance.gauss(0.0, self._noise_deg), self.cycle_s)
         condition = Condition(supplied=self.motor.supply)
         self.axis.see(Reading(self.now_s, 0.05 + 0.9 * read_deg / self.high_deg, condition=condition), self.now_s)
         self._obey(self.axis.decide(self.now_s).command)
