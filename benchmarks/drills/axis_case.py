@@ -65,7 +65,7 @@ class AxisCase:
     idle_s: float = 0.0
     welded_s: float = 0.0
     weld_shown_s: float = 0.0
-    """For how long a welded relay has turned the axis since the box last fed its motor itself."""
+    """For how long a welded relay has turned the axis while the box did not feed its motor itself."""
     weld_known: bool = False
     """That was long enough to be seen, and the supply was cut afterwards."""
     fed_s: float = 0.0
@@ -105,7 +105,7 @@ class AxisCase:
         self.fed_s = self.fed_s + past_s if fed and self.weld_known else self.fed_s
 
     def weld_forgotten(self) -> None:
-        """The box feeds the motor itself, the relay is open again, or the program has ended."""
+        """The relay is open again, or the program has ended."""
         self.weld_known, self.weld_shown_s, self.fed_s = False, 0.0, 0.0
 
     def rest(self, *, at_stop: bool) -> None:

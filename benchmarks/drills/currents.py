@@ -44,6 +44,8 @@ class Currents:
 
     def _welded(self, truth: AxisTruth, case: AxisCase) -> None:
         turns = abs(truth.speed_dps) >= GOING_SHARE * truth.full_dps
+        if truth.welded and truth.coil:
+            return  # what it did in the pauses before is not forgotten
         if truth.coil or not truth.power or not self._master or not turns or case.blind:
             case.welded_s = 0.0
             return
@@ -53,8 +55,10 @@ class Currents:
 
     def _fed(self, truth: AxisTruth, case: AxisCase) -> None:
         """Accuse a supply that is switched on again and again, for the other axis, while a known weld feeds a motor."""
-        if truth.coil or not truth.welded or not self._master or case.blind or case.counts:
+        if not truth.welded or not self._master or case.blind or case.counts:
             case.weld_forgotten()
+            return
+        if truth.coil:
             return
         turns = abs(truth.speed_dps) >= GOING_SHARE * truth.full_dps
         case.weld_feeds(self._past_s, fed=truth.power != 0, turns=turns)

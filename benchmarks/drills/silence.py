@@ -120,7 +120,10 @@ class Silence:
             # The box counts bad readings. In a late cycle there are fewer readings than the time suggests.
             more_s = min(past_s, PERIOD_S) if each.rule.shows is Shows.AS_READ else past_s
             wanted = ordered, truth.name in elsewhere
-            each.seen_s = each.seen_s + more_s if self._to_be_seen(each, truth, wanted, there) else 0.0
+            if self._to_be_seen(each, truth, wanted, there):
+                each.seen_s += more_s
+            elif not (each.rule.shows is Shows.WELDED and truth.coil):  # seen in one pause, it is not forgotten
+                each.seen_s = 0.0
             if each.seen_s > self._most_s(each) + LOOK_S:
                 self.found.append(Violation(now_s, SILENCE, each.axis, f"{each.name} for {each.seen_s:.2f} s"))
                 self._lasting.remove(each)
@@ -139,7 +142,7 @@ class Silence:
     def _most_s(self, fault: _Lasting) -> float:
         """The longest time until the message. A contact that does not change shows nothing for three of its periods."""
         case = self._cases[fault.axis]
-        waits = case.counts and fault.rule.shows in (*CURRENT, Shows.WITHOUT_CURRENT)
+        waits = case.counts and fault.rule.shows in (*CURRENT, Shows.WITHOUT_CURRENT, Shows.WELDED)
         return max(fault.rule.within_s, case.patience_s) if waits else fault.rule.within_s
 
     def _to_be_seen(self, fault: _Lasting, truth: AxisTruth, wanted: tuple[bool, bool], there: frozenset[str]) -> bool:
@@ -162,6 +165,8 @@ class Silence:
                 return fed and turns > TURNING_SHARE
             case Shows.WITHOUT_CURRENT:
                 return truth.coil == 0 and turns > TURNING_SHARE
+            case Shows.WELDED:
+                return truth.coil == 0 and truth.power != 0 and turns > TURNING_SHARE
             case Shows.BLOWN:
                 return truth.coil == 0 and turns > BLOWN_SHARE
 

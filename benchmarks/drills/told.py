@@ -31,6 +31,8 @@ class Shows(Enum):
     """Only while the motor has current and the axis stands."""
     WITHOUT_CURRENT = auto()
     """Only while the axis turns at half of its speed or faster, and its relay is open."""
+    WELDED = auto()
+    """Only while the axis turns so with current, and its coil is off. What a pause shows is kept over the next run."""
     BLOWN = auto()
     """Only while the axis turns at a fifth of its speed or faster, and its relay is open."""
     AS_READ = auto()
@@ -88,7 +90,7 @@ SEEN: Mapping[str, Rule] = {
     "motor-reversed": Rule(Shows.TURNED, measured=True),
     "stop-early": Rule(Shows.PRESSED, felt=True),
     "hand-turns": Rule(Shows.WITHOUT_CURRENT, measured=True),
-    "relay-welded": Rule(Shows.WITHOUT_CURRENT, felt=True),
+    "relay-welded": Rule(Shows.WELDED, felt=True),
     "wind-turns": Rule(Shows.BLOWN, measured=True),
     # contacts that are counted
     "contact-stuck-open": DRIVEN,

@@ -47,9 +47,8 @@ class SensorTable(Table):
             case "as5600":
                 return Angle(AngleSource.MEASURED, in_degrees=False, sensor="encoder")
             case "mpu6050":
-                return Angle(
-                    AngleSource.MEASURED, sensor="tilt sensor", by="told by gravity", behind_s=MPU6050_BEHIND_S
-                )
+                tilt, by = "tilt sensor", "told by gravity"
+                return Angle(AngleSource.MEASURED, sensor=tilt, by=by, behind_s=MPU6050_BEHIND_S)
 
     @property
     def i2c(self) -> tuple[int, int] | None:

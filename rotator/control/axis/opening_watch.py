@@ -30,11 +30,12 @@ from rotator.control.axis.seen_run import (
     END_WINDOWS_S,
     EXTRAPOLATED_AFTER_S,
     HELD_UNSEEN_S,
+    LONGEST_WINDOW_S,
     POWERED_SHARE,
     EndedRun,
     SeenRun,
 )
-from rotator.control.axis.standing import Obstacles, RestPlace
+from rotator.control.axis.standing import STOP_BEYOND_DEG, Obstacles, RestPlace
 from rotator.control.axis.trend import LONGEST_GAP_S, Slope
 from rotator.exchange.motor import Trust
 
@@ -43,6 +44,8 @@ GAP_S = 0.5
 """No command to a relay holds for longer without being renewed."""
 MEAN_BEHIND_S = 0.05
 """The mean of three readings lies so far behind the latest one."""
+PLACE_NOISES = 1.7
+"""That mean is surely right within this many noises: three of its standard errors."""
 MOVED_DEG, MOVED_NOISES = 0.5, 4.0
 """An axis has been moved when it is this far from where it stood, and this many times the noise."""
 
@@ -100,7 +103,7 @@ class OpeningWatch:
             return True
         relays = self._seen.relays
         if direction is relays.last and self._trusts.of(direction) is Trust.UNSEEN:
-            return relays.off_for_s(self._seen_s) >= BLINK_S
+            return BLINK_S <= relays.off_for_s(self._seen_s) < LONGEST_WINDOW_S
         # The axis is turning the other way, perhaps by the opposite relay: wait.
         slope = self._seen.trend.slope(self._seen.trend.last_s - END_WINDOWS_S[1])
         powered_dps = POWERED_SHARE * self._run.motor_dps
@@ -186,7 +189,8 @@ class OpeningWatch:
         if self._run_on.ran_on or self._trusts.of(ended.direction) is Trust.OPEN:
             return
         ahead_deg = (self._run_on.full_dps(ended) + line.error_dps) * (self._seen.behind_s + MEAN_BEHIND_S)
-        free = self._obstacles.free(line.way, self._place_deg + line.way * ahead_deg)
+        ahead_deg += PLACE_NOISES * self._seen.trend.noise_deg
+        free = self._obstacles.free(line.way, self._place_deg + line.way * ahead_deg, STOP_BEYOND_DEG)
         if self._run_on.slows(at_s, self._place_deg, ended, line, free=free):
             self._trusts.seen_open(ended.direction)
 

@@ -60,7 +60,7 @@ class RunOn:
         gone_deg = (place_deg - ended.angle_deg) * line.way
         coasts = not self._went_far(ended, gone_deg)
         still_coasts = self._still_coasts(at_s, passed_s, gone_deg, line)
-        if free and ((slowed and coasts) or still_coasts):
+        if (slowed and coasts and free) or still_coasts:
             return True
         if passed_s >= RAN_ON_S + self._seen.behind_s and ended.lasted_s >= STEADY_S:
             self._going = self._going + 1 if self._goes_on(line, passed_s, gone_deg) else 0
@@ -93,9 +93,8 @@ class RunOn:
             behind_deg = abs(line.speed_dps) * passed_s - gone_deg
             if behind_deg > sure_deg + 3.0 * line.error_dps * passed_s:
                 self._lagged_s = at_s
-        elif self._lagged_deg is None:
-            if at_s - self._lagged_s >= self._seen.behind_s + MEAN_OVER_S:
-                self._lagged_deg = gone_deg
+        elif self._lagged_deg is None and at_s - self._lagged_s >= self._seen.behind_s + MEAN_OVER_S:
+            self._lagged_deg = gone_deg
         return self._lagged_deg is not None and gone_deg - self._lagged_deg > sure_deg
 
     def _goes_on(self, line: Slope, passed_s: float, gone_deg: float) -> bool:

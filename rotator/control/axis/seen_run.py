@@ -26,7 +26,8 @@ STEADY_S = 1.5
 BLIND_S = 1.0
 """An axis may turn without being seen to turn, in short runs of this length in all."""
 SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
-"""An axis is watched for this long before it is taken to stand: longer where the readings scatter more."""
+"""An axis is watched for this long before it is taken to stand: longer where the readings scatter more. What they have
+not shown after the longest time they do not show."""
 HELD_UNSEEN_S = 0.3
 """An axis that was held for a shorter time at the end of a run seems to turn until the end."""
 EXTRAPOLATED_AFTER_S = 0.2

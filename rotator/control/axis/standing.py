@@ -18,7 +18,9 @@ KEPT_READINGS = 20
 LANDED_READINGS = 3
 """When the axis is first taken to stand, only this many of the latest readings are sure to be later than its coast."""
 BEYOND_DEG = 0.5
-"""An axis may come to rest this far beyond its limit: its stop is at least a degree beyond the limit."""
+"""An axis may come to rest this far beyond its limit: its stop is further beyond."""
+STOP_BEYOND_DEG = 1.0
+"""A stop is at least this far beyond its limit."""
 HOLDS_DEG = 1.0
 """An axis that is this far past the place where it was held is free of what held it."""
 
@@ -139,11 +141,11 @@ class Obstacles:
         kept = self._held_deg.items()
         self._held_deg = {way: held_deg for way, held_deg in kept if abs(place_deg - held_deg) <= by_deg}
 
-    def free(self, way: Direction, place_deg: float) -> bool:
-        """Whether a powered motor could turn on in this direction from here."""
+    def free(self, way: Direction, place_deg: float, beyond_deg: float = BEYOND_DEG) -> bool:
+        """Whether a powered motor could turn on in this direction from here, so far beyond its limit at most."""
         held_deg = self._held_deg.get(way)
         held = held_deg is not None and (held_deg - place_deg) * way < HOLDS_DEG
         if self._limits is None:
             return not held
         limit_deg = self._limits.max_deg if way > 0 else self._limits.min_deg
-        return not held and (place_deg - limit_deg) * way <= BEYOND_DEG
+        return not held and (place_deg - limit_deg) * way <= beyond_deg
