@@ -74,7 +74,8 @@ def test_it_parks_on_the_turn_that_the_file_names() -> None:
 
 
 def test_it_parks_within_its_limits_and_above_what_stands_there() -> None:
-    assert Mount(Range(0, 450), Range(5, 90), 20.0, 0.0).parked() == (20, 5)
+    with pytest.raises(Unreachable, match="elevation 0 is outside"):
+        Mount(Range(0, 450), Range(5, 90), 20.0, 0.0).parked()
     assert Mount(Range(0, 450), FULL_EL, 100.0, 0.0, horizon=HILLS).parked() == (100, 22)
     with pytest.raises(Unreachable, match="azimuth 100 is outside"):
         Mount(Range(200, 400), FULL_EL, 100.0).parked()
