@@ -63,7 +63,7 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
 @click.option("--ask", "asked", is_flag=True, help="Ask a few questions, and write your file.")
 @click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="The file to write.")
 def show_config(name: str | None, listed: bool, asked: bool, to: Path | None) -> None:
-    """Print a shipped configuration, write it to a file, or ask for your own.
+    """Print or write a shipped configuration, or ask for your own.
 
     NAME is one of those that --list shows; without NAME it is the simulated rotor's.
     """
