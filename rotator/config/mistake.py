@@ -9,9 +9,6 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-NO_BREAK = "\u00a0"
-"""A space in a text at which no line ends."""
-
 _ORDER = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 
 
@@ -27,25 +24,16 @@ class Mistake:
     """The lines of the file that it is about, from 1; empty where no line is to blame."""
 
     def __str__(self) -> str:
-        return self._with_lines().replace(NO_BREAK, " ")
-
-    def wrapped(self, columns: int) -> str:
-        """No word is broken unless it is longer than a line, and what is to be written stays together."""
-        rows = textwrap.fill(
-            self._with_lines(), columns, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False
-        )
-        return rows.replace(NO_BREAK, " ")
-
-    def _with_lines(self) -> str:
-        text = "".join(
-            mark if mark.isprintable() or mark == NO_BREAK else mark.encode("unicode_escape").decode()
-            for mark in self.text
-        )
+        text = "".join(mark if mark.isprintable() else mark.encode("unicode_escape").decode() for mark in self.text)
         if not self.lines:
             return text
         *first, last = self.lines
         where = f"lines {', '.join(map(str, first))} and {last}" if first else f"line {last}"
         return f"{where}: {text}"
+
+    def wrapped(self, columns: int) -> str:
+        """No word is broken unless it is longer than a line."""
+        return textwrap.fill(str(self), columns, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False)
 
     @property
     def place(self) -> int:

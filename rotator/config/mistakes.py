@@ -1,63 +1,62 @@
 """Everything that is wrong with a text that is no configuration, in the order of the file.
 
-Knows harmless values with which it goes on to find further mistakes, and the lines of each. The words are in `wording`,
-what is no TOML in `mending`. Imported only when a file has a mistake.
+Knows the lines of each mistake. The words for a value that the model refuses are in `wording`; what is no TOML is told
+as tomllib finds it, and nothing is looked for beyond it. Imported only when a file has a mistake.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping
-from typing import Any
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from rotator.config import mending, migrations
+from rotator.config import migrations
 from rotator.config.mistake import Mistake, counted
 from rotator.config.model import Config
 from rotator.config.statements import Place, places
-from rotator.config.wording import explain, sorts, tables
+from rotator.config.wording import explain, tables
 
 ENOUGH = 200
 """Mistakes of keys and values: more than a person reads at once, or a file for a rotator can have."""
 _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 """What may be a key in the words of a mistake."""
+_PLACE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
+_ENDLESS = re.compile(r"(?<![\d_])[\d_]{4301}")
+_WRITTEN = 'a number is written 4.5, a text "in quotes", and a remark begins with #'
 
 
 def mistakes_in(text: str) -> list[Mistake]:
     """Everything that is wrong with a text that is no configuration."""
-    several = {name for name, _, many in tables() if many}
-    mended = mending.mended(text, {name for name, *_ in tables()} - several, several, sorts())
-    found = list(mended.mistakes)
     try:
-        keys = migrations.values(mended.text)
+        values = migrations.values(text)
     except migrations.FormatError as fault:
-        return [*found, Mistake(str(fault), places(mended.text).get((migrations.KEY,), ())[:1])]
-    values = {key: value for key, value in keys.items() if key[:1] != mending.SCRATCH}
-    lines = places(mended.text)
-    replaced: set[Place] = set()
-    seen: list[Mistake] = []
-    for _ in range(mending.MOST):
-        try:
-            Config.model_validate(values)
-            break
-        except ValidationError as invalid:
-            errors = invalid.errors()[:ENOUGH]
-        # A line that could not be read may hold just what is missing.
-        shown_errors = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
-        shown_errors = [error for error in shown_errors if not _follows(error, replaced)]
-        new = [mistake for error in shown_errors for mistake in _located(error, lines) if mistake not in seen]
-        seen += new
-        for mistake in (Mistake(_counted(each.text, several), each.lines) for each in new):
-            _tell(mistake, found, mended.whys)
-        if any(not error["loc"] for error in errors) or (shown_errors and not new) or len(found) >= ENOUGH:
-            break
-        replaced |= {tuple(error["loc"]) for error in errors}
-        # One mistake can hide another: limits are compared only if both are numbers. Mend the values, and check again.
-        for error in errors:
-            _mend(values, list(error["loc"]))
-    return found
+        return [Mistake(str(fault), places(text).get((migrations.KEY,), ())[:1])]
+    except ValueError as fault:
+        return [_no_toml(text, str(fault))]
+    try:
+        Config.model_validate(values)
+    except ValidationError as invalid:
+        lines = places(text)
+        found = dict.fromkeys(mistake for error in invalid.errors()[:ENOUGH] for mistake in _located(error, lines))
+        several = {name for name, _, many in tables() if many}
+        return [Mistake(_counted(each.text, several), each.lines) for each in found]
+    return []
+
+
+def _no_toml(text: str, reason: str) -> Mistake:
+    """The first place that is no TOML: its line as it stands, and what the reader of TOML says of it."""
+    rows = text.split("\n")
+    at = _PLACE.search(reason)
+    if at is None:  # too much of it; or Python itself refuses a whole number with more than some thousand digits
+        endless = tuple(number for number, row in enumerate(rows, 1) if _ENDLESS.search(row))[:1]
+        return Mistake("a number has thousands of digits" if endless else reason, endless)
+    last = max((number for number, row in enumerate(rows, 1) if row.strip()), default=1)
+    line = min(int(at[1]), last) if at[1] else last
+    bare = "".join(mark if mark.isprintable() else " " for mark in rows[line - 1].strip())
+    shown = bare if len(bare) <= 60 else bare[:57] + "..."
+    return Mistake(f"{shown}: is not TOML: {_PLACE.sub('', reason)}; {_WRITTEN}", (line,))
 
 
 def _counted(text: str, several: Collection[str]) -> str:
@@ -71,23 +70,6 @@ def _counted(text: str, several: Collection[str]) -> str:
         return one if not key else f"{one}: {key}" if found.start() == 0 else f"{key} of {one}"
 
     return re.sub(r"(?<![\w.\"])([a-z_.]+)\[(\d+)\](?:\.([a-z_][\w.\[\]]*\w\]?))?", words, text)
-
-
-def _tell(mistake: Mistake, found: list[Mistake], whys: Mapping[int, str]) -> None:
-    """Add a mistake. Two mistakes of one line become one text: the advice of each alone would lead to the other."""
-    line = mistake.lines[0] if len(mistake.lines) == 1 else 0
-    before = next((at for at, each in enumerate(found) if line in whys and each.lines == (line,)), None)
-    if before is None or "; and " in found[before].text:
-        found.append(mistake)
-    else:
-        found[before] = Mistake(f"{whys[line]}; and {mistake.text}", mistake.lines)
-
-
-def _follows(error: ErrorDetails, replaced: Collection[Place]) -> bool:
-    """Whether a rule fails over a key whose faulty value was replaced: with the right value it may hold."""
-    place = tuple(error["loc"])
-    named = {(*place, *_place(path)) for path in _PATHS.findall(explain(error))}
-    return error["type"] == "value_error" and not named.isdisjoint(replaced)
 
 
 def _located(error: ErrorDetails, lines: Mapping[Place, tuple[int, ...]]) -> Iterable[Mistake]:
@@ -115,30 +97,3 @@ def _place(path: str) -> Place:
 
 def _dotted(place: Place) -> str:
     return ".".join(str(part) for part in place)
-
-
-def _mend(values: dict[str, Any], place: list[int | str]) -> None:
-    """Replace the faulty value by a harmless one, to find further faults."""
-    parent: Any = values
-    *way, last = place
-    for part in way:
-        if isinstance(parent, list) and not (isinstance(part, int) and part < len(parent)):
-            return
-        if isinstance(parent, dict) and part not in parent:
-            return
-        parent = parent[part]
-    match parent, last:
-        case _ if place[:2] in (["mount", "forbidden"], ["sky", "follow"]) and len(place) > 2:
-            # Such a table has keys that must be given. A faulty one is left out, and the others with it.
-            values[str(place[0])].pop(place[1])
-        case dict(), "protocol":
-            places = {"connect": "rotctld-follow", "udp": "pstrotator", "file": "wsjtx"}
-            parent[last] = next((protocol for key, protocol in places.items() if key in parent), "rotctld")
-        case dict(), "pty" | "serial" | "tcp" | "connect" | "udp" | "file" if place[0] == "link":
-            parent[last] = f"mended-{place[1]}:1"
-        case dict(), _:
-            parent.pop(last, None)
-        case list(), int() if place[0] == "link" and len(place) == 2:
-            parent[last] = {"protocol": "rotctld", "pty": f"mended-{last}"}
-        case _:
-            _mend(values, way)

@@ -1,7 +1,6 @@
 """Words for a value that the model refuses: the key, what was found, and what to write instead.
 
-Knows the errors of pydantic, and the slips that a value shows: a number in quotes, a unit, a key of another table. Does
-not know lines.
+Knows the errors of pydantic, and the keys and words that come near to what was written. Does not know lines.
 """
 
 from __future__ import annotations
@@ -16,9 +15,7 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from rotator.config.model import Config
-from rotator.config.quantity import numbers
 from rotator.config.rotor_names import type_of
-from rotator.config.slips import Sort, alone
 
 _KINDS = {
     "float": "a number",
@@ -48,8 +45,6 @@ _EVERYWHERE = ("name", "type", "kind")
 """Keys of tables that have nothing to do with each other: in another table they would mean something else."""
 _LISTENS = ("tcp", "listen")
 """Keys for a port of this machine: a bare number is the port."""
-_LISTS_OF_TEXTS = ("allow", "names", "broker_names")
-_YES, _NO = ("yes", "on", "true", "1", "ja", "oui"), ("no", "off", "false", "0", "nein", "non")
 
 
 def explain(error: ErrorDetails) -> str:
@@ -59,8 +54,11 @@ def explain(error: ErrorDetails) -> str:
     value = error["input"]
     context: Mapping[str, Any] = error.get("ctx", {})
     match error["type"]:
-        case "extra_forbidden" if len(place) == 1 and isinstance(value, dict):
-            return f"[{key}]: no such table; there are {', '.join(name for name, *_ in tables() if '.' not in name)}"
+        case "extra_forbidden" if len(place) == 1 and isinstance(value, (dict, list)):
+            there = [name for name, *_ in tables() if "." not in name]
+            near = _near(key.lower(), there, 0.6)
+            meant = f"; did you mean {_heading(near)}?" if near else f"; there are {', '.join(there)}"
+            return f"[{key}]: no such table{meant}"
         case "extra_forbidden":
             return f"{key} = {show(value)}: no such key{_right_key(place, value)}"
         case "missing":
@@ -74,15 +72,12 @@ def explain(error: ErrorDetails) -> str:
             return str(context["error"])
         case "value_error":
             return f"{key}: {context['error']}"
-        case "too_long" | "too_short" if isinstance(value, (list, tuple)) and len(place) > 1:
-            return f"{key} = {show(value)}: {_right_pair(value, error['msg'])}"
         case kind:
             sort = kind.split("_")[0]
             expected = _KINDS.get(sort) if kind.endswith(("_type", "_parsing")) else None
             expected = expected or error["msg"].removeprefix("Input should be ")
             name = next((str(part) for part in reversed(place) if isinstance(part, str)), "")
-            right = _right_port(name, value) or _right_value(sort, name, value)
-            return f"{key} = {show(value)}: must be {expected}{right}"
+            return f"{key} = {show(value)}: must be {expected}{_right_form(key, name, value)}"
 
 
 def written(place: list[int | str]) -> str:
@@ -175,62 +170,10 @@ def _right_choice(value: object, allowed: list[str]) -> str:
     return f"; did you mean {near}?" if near else ""
 
 
-def _right_pair(value: list[Any] | tuple[Any, ...], reason: str) -> str:
-    if len(value) in (3, 4) and all(isinstance(each, int | float) for each in value):
-        return "a pair of numbers belongs here; write decimals with a point, not with a comma"
-    return reason[0].lower() + reason[1:]
-
-
-def _right_value(sort: str, key: str, value: object) -> str:
-    """What to write for a value of the wrong kind: `"4,5"` where a number belongs."""
-    match sort, value:
-        case "float" | "int", str(text):
-            meant = numbers(text, key, whole=sort == "int")
-            if len(meant) == 1 and re.fullmatch(r"\s*[-+]?\d+([.,]\d+)?\s*", text) and "x" not in meant[0]:
-                return f"; write {meant[0]} without quotes"
-            if meant:
-                return f"; write {' or '.join(f'{key} = {each}' for each in meant)}"
-            return f"; {alone(key, whole=sort == 'int')}" if any(mark.isdigit() for mark in text) else ""
-        case "bool", str(text) if text.lower() in _YES + _NO:
-            return f"; write {'true' if text.lower() in _YES else 'false'} without quotes"
-        case "bool", 0 | 1:
-            return f"; write {'true' if value else 'false'}"
-        case "string", int() | float() if not isinstance(value, bool):
-            # A number with a point may have been written otherwise, such as 1.50.
-            return f'; write "{value}"' if isinstance(value, int) else "; put it in quotes"
-        case "list", str(text) if text.lstrip().startswith("["):
-            return "; write it without quotes"
-        case "list", str(text) if key == "elements":
-            return f"; write [{show(text)}]"
-        case "list", str(text) if key in _LISTS_OF_TEXTS:
-            texts = [each for each in re.split(r"[\s,;]+", text) if each]
-            return f"; write [{', '.join(show(each) for each in texts)}]" if texts else ""
-    return ""
-
-
-@cache
-def sorts() -> Mapping[str, Sort]:
-    """What belongs behind each key that is a number or a text in every table that has it."""
-    found: dict[str, set[Sort | None]] = {}
-    for _, model, _ in tables():
-        for name, field in model.model_fields.items():
-            found.setdefault(name, set()).add(_sort(field.annotation))
-    return {name: sort for name, of in found.items() if len(of) == 1 and (sort := next(iter(of)))}
-
-
-def _sort(annotation: object) -> Sort | None:
-    if any(get_origin(each) in (list, tuple, dict) for each in (annotation, *get_args(annotation))):
-        return None
-    kinds = [kind for each in (*get_args(annotation), annotation) for kind in (each, *get_args(each))]
-    if float in kinds:
-        return "number"
-    if int in kinds or all(isinstance(kind, int) for kind in get_args(annotation) or ("",)):
-        return "whole"
-    return "text" if str in kinds or all(isinstance(kind, str) for kind in get_args(annotation) or (0,)) else None
-
-
-def _right_port(name: str, value: object) -> str:
-    """`tcp = 4533`: a port alone, of this machine alone."""
+def _right_form(key: str, name: str, value: object) -> str:
+    """A heading with the wrong number of brackets; and `tcp = 4533`, a port alone, of this machine alone."""
+    if isinstance(value, (dict, list)) and key in {table for table, *_ in tables()}:
+        return f"; write {_heading(key)}"
     return f'; write "127.0.0.1:{value}"' if name in _LISTENS and type(value) is int else ""
 
 

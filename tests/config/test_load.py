@@ -108,9 +108,9 @@ def test_it_may_be_read_by_path(tmp_path: Path) -> None:
         ("[relays]\nazimuth_cw = 58\n", "relays.azimuth_cw = 58: must be less than or equal to 57"),
         (
             "[azimuth]\ndirection_checked = 'yes'\n",
-            'azimuth.direction_checked = "yes": must be true or false; write true without quotes',
+            'azimuth.direction_checked = "yes": must be true or false',
         ),
-        ("[relays]\nchip = 0\n", 'relays.chip = 0: must be text in quotes; write "0"'),
+        ("[relays]\nchip = 0\n", "relays.chip = 0: must be text in quotes"),
         ("azimuth = 4\n", "azimuth = 4: must be a table"),
         ("link = 4\n", "link = 4: must be a list in brackets"),
         ("[azimuth]\ncalibration = 1\n", "azimuth.calibration = 1: must be a list in brackets"),
@@ -183,20 +183,6 @@ def test_wherever_it_is_misspelt(text: str, key: str, meant: str) -> None:
     assert fault.endswith(f": no such key; did you mean {meant}?")
 
 
-@pytest.mark.parametrize(
-    ("heading", "right"),
-    [
-        ("[azimut]", "[azimuth]"), ("[Azimuth]", "[azimuth]"), ("[sim.elevatoin]", "[sim.elevation]"),
-        ("[Link]", "[[link]]"), ("rotor", "[rotor]"), ("Azimuth:", "[azimuth]"), ("link  # mine", "[[link]]"),
-    ],
-)  # fmt: skip
-def test_a_heading_that_is_misspelt_or_has_no_brackets_is_told_as_it_stands(heading: str, right: str) -> None:
-    said = faults(f"{heading}\n")
-    assert said[0].startswith(f"{heading.partition('#')[0].strip()}: ")
-    assert said[0].endswith(f": write {right}")
-    assert len(said) == (3 if right == "[[link]]" else 1), "a link has to have a protocol and a place"
-
-
 def test_a_heading_like_no_other() -> None:
     (said,) = faults("[qqq]\nx = 1\n")
     assert said.startswith("[qqq]: no such table; there are rotor, azimuth, ")
@@ -207,12 +193,6 @@ def test_a_name_of_the_rotor_is_no_type() -> None:
     assert said == 'rotor.name = "Dachständer": no such key; known here: type, hardware'
     (said,) = faults('[rotor]\nname = "G-5500"\n')
     assert 'did you mean type? write "relay-pot"' in said
-
-
-def test_a_locator_that_is_short_and_without_quotes_is_one_message() -> None:
-    (said,) = faults("[station]\nlocator = JN58\n")
-    assert said.startswith("locator = JN58: a text stands in quotes; and station.locator: ")
-    assert said.endswith('must be a locator of 6, 8, 10 or 12 characters, such as "JO62qm"')
 
 
 def test_a_key_like_no_other_gets_no_suggestion() -> None:

@@ -1,4 +1,4 @@
-"""Many faults in one configuration file: all are found at once, none hides another, none is told twice."""
+"""Many faults in one configuration file: all wrong keys are told at once, none twice; then what joins several keys."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_every_fault_at_once() -> None:
         'rotor.hardware = "pie": must be one of sim, pi; did you mean pi?',
         "azimuth.tolerance_deg = -1: must be greater than 0",
         "elevation: min_deg (90) must be below max_deg (0): swap the two",
-        'relays.azimuth_cw = "22": must be a whole number; write 22 without quotes',
+        'relays.azimuth_cw = "22": must be a whole number',
         FIRST + 'protocol = "gs232": must be one of gs232a, gs232b, gs232-f1efw, rotctld, rotctld-follow, easycomm1, '
         "easycomm2, easycomm3, rot1prog, rot2prog, md01, dcu1, pstrotator, n1mm, macdoppler, wsjtx, "
         "lx200, stellarium, pstrotatoraz, prosistel-d, prosistel-c, rc2800; "
@@ -76,43 +76,29 @@ def test_a_rule_over_a_key_with_a_mistake_is_not_told_before_the_mistake_is_mend
     ]
 
 
-def test_a_rule_over_other_keys_of_that_table_is_told() -> None:
-    with pytest.raises(ConfigError) as refused:
-        parse("[azimuth]\ntolerance_deg = -1\nmin_deg = 360\nmax_deg = 0\n", "a.toml")
-    assert [str(each).partition(":")[0] for each in refused.value.mistakes] == ["line 2", "lines 3 and 4"]
-
-
 def test_a_single_fault_is_one_fault() -> None:
     with pytest.raises(ConfigError) as refused:
         parse("[azimuth]\ntolerance_deg = -1\n", "a.toml")
     assert str(refused.value) == "a.toml: 1 mistake\n  line 2: azimuth.tolerance_deg = -1: must be greater than 0"
 
 
-def test_one_fault_does_not_hide_another() -> None:
+def test_rules_over_several_keys_are_told_once_each_of_them_is_good() -> None:
     """Limits are compared only once both are numbers, links only once each is one, pins only at the end."""
-    found = faults(
-        "[azimuth]\nmin_deg = 300\nmax_deg = 200\ntolerance_deg = 'x'\n"
-        "[relays]\nazimuth_cw = 24\ndead_time_s = 9\n"
-        "[[link]]\nprotocol = 'nonsense'\n"
-        "[[link]]\nprotocol = 'rotctld'\npty = 'a'\n"
-        "[[link]]\nprotocol = 'gs232a'\npty = 'a'\n"
+    text = (
+        "[azimuth]\nmin_deg = 300\nmax_deg = 200\n{}"
+        "[relays]\nazimuth_cw = 24\n"
+        "[[link]]\nprotocol = 'rotctld'\npty = 'a'\n[[link]]\nprotocol = 'gs232a'\npty = 'a'\n"
     )
-    text = "\n".join(found)
-    for fault in (
-        'azimuth.tolerance_deg = "x": must be a number',
-        "azimuth: min_deg (300) must be below max_deg (200)",
-        "relays.dead_time_s = 9: must be less than or equal to 5",
-        'the first [[link]]: protocol = "nonsense": must be one of',
-        "the first [[link]]: must have exactly one of pty, serial, tcp",
-        "GPIO 24 is used by relays.azimuth_cw and relays.elevation_up",
-        "2 links use a",
-    ):
-        assert fault in text
+    assert faults(text.format("tolerance_deg = 'x'\n")) == ['azimuth.tolerance_deg = "x": must be a number']
+    assert faults(text.format("")) == ["azimuth: min_deg (300) must be below max_deg (200): swap the two"]
+    whole = "\n".join(faults(text.format("").replace("300", "100")))
+    assert "GPIO 24 is used by relays.azimuth_cw and relays.elevation_up" in whole
+    assert "2 links use a" in whole
 
 
 def test_no_fault_is_told_twice() -> None:
-    found = faults("[azimuth]\nx = 1\nmin_deg = 9\nmax_deg = 1\n[elevation]\nx = 1\nmin_deg = 9\nmax_deg = 1\n")
-    assert len(found) == len(set(found)) == 4
+    found = faults("[azimuth]\nx = 1\n[elevation]\nx = 1\n")
+    assert len(found) == len(set(found)) == 2
 
 
 # --- used twice

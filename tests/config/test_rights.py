@@ -26,10 +26,10 @@ def test_given() -> None:
 @pytest.mark.parametrize(
     ("keys", "fault"),
     [
-        ("allow = [1]", 'the first [[link]]: allow[0] = 1: must be text in quotes; write "1"'),
+        ("allow = [1]", "the first [[link]]: allow[0] = 1: must be text in quotes"),
         (
             'allow = "192.168.1.0/24"',
-            'the first [[link]]: allow = "192.168.1.0/24": must be a list in brackets; write ["192.168.1.0/24"]',
+            'the first [[link]]: allow = "192.168.1.0/24": must be a list in brackets',
         ),
         (
             'allow = ["192.168.1"]',
@@ -65,7 +65,7 @@ def test_a_wrong_item_of_a_list_hides_no_other_fault() -> None:
     said = faults(f"{LINK}allow = [1, 2]\nbaud = 1\n[azimuth]\ncalibration = [[0.1, 0], [0.9]]\nmin_deg = 500\n")
     assert {fault.partition(" = ")[0].partition(": min")[0] for fault in said} == {
         "the first [[link]]: allow[0]", "the first [[link]]: allow[1]", "the first [[link]]: baud",
-        "azimuth.calibration[1][1]: must be given", "azimuth",
+        "azimuth.calibration[1][1]: must be given",
     }  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""What people write that is no TOML: the person reads which line it is, what stands there, and what to write."""
+"""What people write that is no TOML: the person reads which line it is, what stands there, and why it is none."""
 
 from __future__ import annotations
 
@@ -19,114 +19,36 @@ def told(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    ("line", "right"),
+    "line",
     [
-        ("min_deg = 0,5", "min_deg = 0.5"),
-        ("min_deg = -10,25  # west", "min_deg = -10.25"),
-        ("min_deg = 10°", "min_deg = 10"),
-        ("min_deg = 10 deg", "min_deg = 10"),
-        ("min_deg = 10,5 deg", "min_deg = 10.5"),
-        ("min_deg = 10;", "min_deg = 10"),
-        ("coast_s = 170 ms", "coast_s = 0.17"),
-        ("rest_s = 5 min", "rest_s = 300"),
-        ("min_deg = .5", "min_deg = 0.5"),
-        ("min_deg = 5.", "min_deg = 5"),
-        ("min_deg = 005", "min_deg = 5"),
-        ("min_deg 10", "min_deg = 10"),
-        ("min_deg: 10", "min_deg = 10"),
-        ("min_deg == 10", "min_deg = 10"),
-        ("min deg = 10", "min_deg = 10"),
-        ("min_deg\u00a0= 10", "plain space"),
-        ("direction_checked = yes", "direction_checked = true"),
-        ("direction_checked = True", "direction_checked = true"),
-        ("direction_checked = off", "direction_checked = false"),
-        ("calibration = [[0,058, 0], [0,942, 360]]", "calibration = [[0.058, 0], [0.942, 360]]"),
-        ("calibration = [[0.058 0], [0.942 360]]", "calibration = [[0.058, 0], [0.942, 360]]"),
-        ("; a remark", "# a remark"),
-        ("// a remark", "# a remark"),
-        ("This is my rotor", "# before it"),
-        ("min_deg =", "write one, or take the line out"),
+        "min_deg = 0,5", "min_deg = 10°", "min_deg = 10 deg", "min_deg = 10;", "min_deg = 005", "min_deg 10",
+        "min_deg: 10", "min_deg\u00a0= 10", "direction_checked = yes", "calibration = [[0.058 0], [0.942 360]]",
+        "; a remark", "This is my rotor", "min_deg =", "[elevation", "elevation]", "name = “mine”", 'name = "mine',
+        'name = "\\mine"', "max_deg = 1", "[azimuth]",
     ],
-)
-def test_a_line_of_an_axis(line: str, right: str) -> None:
-    (mistake,) = told(f"# mine\n[azimuth]\n{line}\nmax_deg = 360\n")
-    assert mistake.startswith("line 3: ")
-    assert mistake.endswith(right)
+)  # fmt: skip
+def test_the_line_that_is_no_toml_is_told_as_it_stands_with_how_values_are_written(line: str) -> None:
+    (mistake,) = told(f"# mine\n[azimuth]\nmax_deg = 360\n{line}\n[rotor]\n")
+    assert mistake.startswith(f"line 4: {line.replace(chr(0xA0), ' ')}: is not TOML: ")
+    assert mistake.endswith('; a number is written 4.5, a text "in quotes", and a remark begins with #')
+
+
+def test_a_list_that_ends_nowhere_is_told_with_the_last_line() -> None:
+    (mistake,) = told("[azimuth]\ncalibration = [\n  [0.1, 0],\n  [0.9, 360],\n\n")
+    assert mistake.startswith("line 4: [0.9, 360],: is not TOML: ")
 
 
 @pytest.mark.parametrize(
-    ("line", "right"),
+    ("heading", "said"),
     [
-        ("serial = /dev/ttyUSB0", 'serial = "/dev/ttyUSB0"'),
-        ('serial = "/dev/ttyUSB0', 'serial = "/dev/ttyUSB0"'),
-        ('serial = /dev/ttyUSB0"', 'serial = "/dev/ttyUSB0"'),
-        ("serial = “/dev/ttyUSB0”", 'serial = "/dev/ttyUSB0"'),
-        ('serial = "/dev/ttyUSB0";', 'serial = "/dev/ttyUSB0"'),
-        ('serial = "\\dev\\ttyUSB0"', 'serial = "/dev/ttyUSB0"'),
+        ("[[azimuth]]", "azimuth = [{ min_deg = 1 }]: must be a table; write [azimuth]"),
+        ("[link]", "link = { min_deg = 1 }: must be a list in brackets; write [[link]]"),
+        ("[azimut]", "[azimut]: no such table; did you mean [azimuth]?"),
+        ("[[Links]]", "[Links]: no such table; did you mean [[link]]?"),
     ],
 )
-def test_a_line_with_a_text(line: str, right: str) -> None:
-    assert [mistake.partition(": write ")[2] for mistake in told(f'[[link]]\n{line}\nprotocol = "gs232b"\n')] == [right]
-
-
-@pytest.mark.parametrize(
-    ("heading", "right"),
-    [
-        ("[azimuth", "[azimuth]"),
-        ("azimuth]", "[azimuth]"),
-        ("[azimuth];", "[azimuth]"),
-        ("[[azimuth]]", "[azimuth]"),
-        ("[[azimuth]", "[azimuth]"),
-    ],
-)
-def test_a_heading_of_one_table(heading: str, right: str) -> None:
-    found = told(f"{heading}\nmin_deg = 10\n")
-    assert found[-1].startswith("line 1: ")
-    assert found[-1].endswith(f"write {right}")
-
-
-@pytest.mark.parametrize("heading", ["[link]", "[[link]", "[link]]", "[ link ]"])
-def test_a_heading_of_links(heading: str) -> None:
-    found = told(LINK + LINK.replace("[[link]]", heading).replace('"x"', '"y"'))
-    assert found[-1].startswith("line 4: ")
-    assert found[-1].endswith("write [[link]]")
-
-
-def test_a_list_that_is_not_closed_is_the_one_to_blame_and_not_the_line_behind_it() -> None:
-    (mistake,) = told("[azimuth]\ncalibration = [\n  [0.1, 0],\n  [0.9, 360],\nmin_deg = 0\n")
-    assert mistake == "line 2: calibration = [: ] is missing at its end"
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (
-            "[azimuth]\nmin_deg = 0\n[azimuth]\nmax_deg = 360\n",
-            "line 3: [azimuth] is in line 1 already: write its keys there, under one heading",
-        ),
-        (
-            "[azimuth]\nmin_deg = 0\nmin_deg = 1\n",
-            "line 3: min_deg = 1: this key is in line 2 already: leave one of the two",
-        ),
-    ],
-)
-def test_something_twice(text: str, said: str) -> None:
-    assert told(text) == [said]
-
-
-def test_all_of_them_in_the_order_of_the_file_and_the_mistakes_of_keys_among_them() -> None:
-    found = told(
-        "[elevation]\nmax_deg = 300\n[azimuth\nmin_deg = 0,5\ntolerence_deg = 3\n[link]\nprotocol = gs232b\n"
-        'pty = "x"\n[rotor]\nhardware = "pie"\n'
-    )
-    assert [mistake.split(":")[0] for mistake in found] == [f"line {line}" for line in (2, 3, 4, 5, 6, 7, 10)]
-
-
-def test_a_line_that_cannot_be_read_is_not_missed_below() -> None:
-    """The link has a protocol, though one without a value."""
-    assert told('[[link]]\nprotocol =\npty = "x"\n') == [
-        "line 2: protocol = without a value: write one, or take the line out"
-    ]
+def test_a_heading_with_the_wrong_brackets_or_name(heading: str, said: str) -> None:
+    assert told(f"{heading}\nmin_deg = 1\n") == [f"line 1: {said}"]
 
 
 # --- files of other programs
@@ -198,11 +120,9 @@ def test_windows_line_ends_and_tabs_are_no_mistake(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("columns", [40, 80])
-def test_no_word_is_broken_and_what_to_write_stays_together(columns: int) -> None:
+def test_no_word_is_broken(columns: int) -> None:
     with pytest.raises(ConfigError) as wrong:
-        parse("[azimuth]\nmin_deg = 0,5\nspeed_dps = 6 deg/s\ntolerence_deg = 3\n", "rotator.toml")
+        parse("[azimuth]\nmin_deg = 'x'\nspeed_dps = 6\ntolerence_deg = 3\n", "rotator.toml")
     rows = wrong.value.wrapped(columns).splitlines()
     assert max(map(len, rows)) <= columns
-    assert any("min_deg = 0.5" in row for row in rows)
-    assert any("speed_dps = 6" in row and "deg/s" not in row.partition("write")[2] for row in rows)
     assert " ".join(" ".join(rows).split()) == " ".join(str(wrong.value).split())

@@ -71,7 +71,7 @@ def test_a_mistake_is_told_beside_its_key_in_the_loaders_words(page_box: Start, 
                 "azimuth.tolerance_deg = 99: must be less than or equal to 45",
             ) in found
             assert ([["link", 0, "bauds"]], "the first [[link]]: bauds = 1: no such key; did you mean baud?") in found
-            assert any(places == [["lcds"]] and "no such table: write [lcd]" in text for places, text in found)
+            assert any(places == [["lcds"]] and "no such table; did you mean [lcd]?" in text for places, text in found)
             status, told = await box.post("settings/write", wanted)
             assert status == 422
             assert file.read_text() == before
