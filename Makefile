@@ -133,7 +133,6 @@ picture-gpredict: $(VENV)/.dev
 
 # The pages of docs/ as a site in build/docs that needs no network to read or search. A broken link or anchor ends it.
 docs: $(VENV)/.docs
-	$(BIN)/python -m docs.words
 	$(BIN)/python -m docs.blocks
 	$(BIN)/sphinx-build -q -W --keep-going -c docs/site -d build/doctrees docs build/docs
 	$(BIN)/python -m docs.site.check build/docs

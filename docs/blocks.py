@@ -13,8 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from docs.words import ROOT, pages
-
+ROOT = Path(__file__).resolve().parents[1]
 PROMPTS = {"$": "run by the tests", "pi$": "needs the Pi, or root", "pc$": "needs another program, or a network"}
 LEFT_OUT = "…"
 _BLOCK = re.compile(r"^( *)```console\n(.*?)^\1```$", re.MULTILINE | re.DOTALL)
@@ -33,6 +32,10 @@ class Step:
     def exit_code(self) -> int:
         named = _EXIT_CODE.search(self.command)
         return int(named[1]) if named else 0
+
+
+def pages() -> list[Path]:
+    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def steps(page: Path) -> Iterator[Step]:

@@ -23,7 +23,7 @@ ENOUGH = 200
 _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 """What may be a key in the words of a mistake."""
 _PLACE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
-_ENDLESS = re.compile(r"(?<![\d_])[\d_]{4301}")
+_DIGITS = re.compile(r"[\d_]+")
 _WRITTEN = 'a number is written 4.5, a text "in quotes", and a remark begins with #'
 
 
@@ -50,7 +50,8 @@ def _no_toml(text: str, reason: str) -> Mistake:
     rows = text.split("\n")
     at = _PLACE.search(reason)
     if at is None:  # too much of it; or Python itself refuses a whole number with more than some thousand digits
-        endless = tuple(number for number, row in enumerate(rows, 1) if _ENDLESS.search(row))[:1]
+        longest = [max(map(len, _DIGITS.findall(row)), default=0) for row in rows]
+        endless = tuple(number for number, digits in enumerate(longest, 1) if digits > 4300)[:1]
         return Mistake("a number has thousands of digits" if endless else reason, endless)
     last = max((number for number, row in enumerate(rows, 1) if row.strip()), default=1)
     line = min(int(at[1]), last) if at[1] else last

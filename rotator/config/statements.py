@@ -8,15 +8,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 
 from rotator.exchange.foreign import toml_of
 
 Place = tuple[int | str, ...]
 """The way to a key: `("link", 0, "pty")`."""
 
-LINES = 3000
-"""More than any configuration has. All its keys are kept taken apart, for they are looked at once for each mistake."""
 _HEADING = re.compile(r"\s*(\[\[?)([^\[\]]+)(\]\]?)\s*(?:#.*)?")
 _KEY = re.compile(r"""\s*((?:[\w-]+|"[^"]*"|'[^']*')(?:\s*\.\s*(?:[\w-]+|"[^"]*"|'[^']*'))*)\s*=""")
 _NEXT = re.compile(r"\s*(?:[A-Za-z_][\w.-]*\s*=|\[\[?[A-Za-z_][\w. -]*\]\]?\s*(?:#.*)?$)")
@@ -86,7 +83,6 @@ def places(text: str) -> Mapping[Place, tuple[int, ...]]:
     return unsaid | {place: tuple(lines) for place, lines in found.items()}
 
 
-@lru_cache(LINES)
 def parts(key: str) -> tuple[str, ...]:
     """`sim."azimuth"` taken apart; empty for what is no key."""
     try:

@@ -22,8 +22,7 @@ from pathlib import Path
 import click
 import pytest
 
-from docs.blocks import LEFT_OUT, PROMPTS, Step, every_step, matches, steps
-from docs.words import ROOT
+from docs.blocks import LEFT_OUT, PROMPTS, ROOT, Step, every_step, matches, steps
 from rotator.cli.main import cli
 from rotator.config.load import shipped
 from tests.boxes import free_port

@@ -13,7 +13,6 @@ import pytest
 from docs.drawings.album import profile
 from docs.drawings.header import GPIO_PINS
 from docs.drawings.panel import LIMITS, PANEL
-from docs.words import MOST, count, pages
 from hw.moteus.faults import FAULTS
 from hw.ports import Direction
 from hw.sensors.cam import Cam
@@ -59,11 +58,6 @@ def test_every_picture_is_shown_on_some_page() -> None:
     every = "".join(text(page) for page in [*PAGES, "../README.md"])
     shown = set(re.findall(r"\((?:\.\./|docs/)?img/([\w.-]+)\)", every))
     assert shown == {path.name for path in (DOCS / "img").iterdir()}
-
-
-def test_the_pages_stay_short() -> None:
-    """If this fails: `python -m docs.words` shows which page has grown."""
-    assert sum(each.read + each.reference for each in map(count, pages())) <= MOST
 
 
 @pytest.mark.parametrize("build", [0, 1, 2])

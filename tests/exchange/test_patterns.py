@@ -30,8 +30,6 @@ TRIES, PIECES = 4, 12
 BOUNDED = {
     # Where the text is bounded first, and the pattern is easier to read as it is.
     "rotator.setup.questions": "an answer has LONGEST characters at most",
-    "rotator.config.slips": "slip() looks at lines of at most LONGEST characters",
-    "rotator.config.quantity": "numbers() looks at LONGEST characters",
 }
 
 Pattern = re.Pattern[str] | re.Pattern[bytes]
