@@ -30,15 +30,14 @@ class Bench:
         self.remarks: list[str] = []
         self.sky = Sky(SITE, lambda: START_S + self.box.now_s - self.began_s)
         self.follower = StarFollower(box, self.sky, self.remarks.append)
+        box.follows = True
 
     def star(self, azimuth_deg: float, elevation_deg: float) -> Star:
         return self.sky.star(azimuth_deg, elevation_deg, Equinox.J2000)
 
     def beats(self, count: int, every_s: float = 1.0) -> None:
         for _ in range(count):
-            self.box.now_s += every_s - 0.1
-            self.box.wait(0.1)
-            self.box.goes_on()  # the motors ran through that leap of the clock
+            self.box.wait(every_s)
             self.follower.beat()
 
 
