@@ -28,7 +28,18 @@ def configured(drill: Drill, folder: Path) -> Config:
     )
     # With a world file the box keeps files of its own and trusts them. The drill itself keeps the world in memory.
     _merge(values, {"sim": {"world": str(folder / "world.json"), "bus_takes_time": False}})
+    _park_within(values)
     return simulated(parse(tomlkit.dumps(values), drill.profile))
+
+
+def _park_within(values: dict[str, Any]) -> None:
+    """A shipped file parks at 0, where a drill's range may not reach."""
+    for axis in ("azimuth", "elevation"):
+        park = values.get("mount", {}).get(f"park_{axis}_deg")
+        if park is not None and "max_deg" in values[axis]:
+            values["mount"][f"park_{axis}_deg"] = min(
+                max(park, values[axis].get("min_deg", 0.0)), values[axis]["max_deg"]
+            )
 
 
 def _merge(values: dict[str, Any], more: dict[str, Any]) -> None:

@@ -61,6 +61,10 @@ def changed(
         table = table.setdefault(each, tomlkit.table())
     for key, value in values.items():
         table[key] = value if isinstance(value, bool) else _short(value, 3)
+    park = document.get("mount", {}).get(f"park_{name}_deg")
+    if park is not None and "min_deg" in values and "max_deg" in values:
+        # A rotor that turns less far than the file had it parks as near to its old place as it can.
+        document["mount"][f"park_{name}_deg"] = _short(min(max(park, values["min_deg"]), values["max_deg"]), 3)
     for key, rows in (("calibration", calibration), ("points", points)):
         if rows is not None:
             table[key] = _rows(rows)

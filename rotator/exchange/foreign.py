@@ -6,7 +6,6 @@ RecursionError. Does not know what is in it. The program parses these three form
 
 from __future__ import annotations
 
-import json
 import re
 import tomllib
 from typing import TYPE_CHECKING, Any
@@ -37,6 +36,8 @@ class TooMuchError(ValueError):
 
 def json_of(text: str | bytes) -> Any:
     """Raises ValueError: JSONDecodeError for what is no JSON."""
+    import json  # noqa: PLC0415 - `rotator stop` reads a configuration, and no JSON
+
     text = text if isinstance(text, str) else text.decode("utf-8")
     _check_depth(_STRINGS.sub("", text))
     return json.loads(text)

@@ -25,7 +25,7 @@ SIZES = 3
 """Some lists have length, width and depth behind the name, and perhaps a magnitude with the letter of its origin."""
 _LINE = re.compile(r"([12]) [ 0-9A-Z][ 0-9]{4}", re.IGNORECASE)
 _SIZE = re.compile(r"-?[0-9]{1,3}\.[0-9]{1,2}")
-_REMARKS = ("#", "//", "<")
+_REMARK = re.compile(r"#|//|(?:<[^<>]*+>)++$")
 _POINTS = ((23, 34), (11, 20, 37, 46, 54))
 """The columns of the decimal points, in the first and in the second line."""
 
@@ -48,7 +48,7 @@ def read(text: str) -> Iterator[Elements | str]:
             break
         if not line:
             alone = True
-        elif line.startswith(_REMARKS):
+        elif _REMARK.match(line):
             continue
         elif found and found[1] == "1":
             if first is not None:

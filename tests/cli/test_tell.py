@@ -70,7 +70,7 @@ def test_transcript_of_a_person_who_points(box: Any, rotator: Rotator, config: P
         r"azimuth \d+\.\d° measured: \+\d+\.\d° from before\.\n", said(rotator("jog", "cw", 1, "--config", config))
     )
     assert why(rotator("point", 700, 30, "--config", config)) == (
-        "rotator: '700' is no azimuth: degrees from -180 to 540\n"
+        "rotator: azimuth 700° names a turn beyond the range of 0° to 450°; the same direction is 340°\n"
     )
     assert why(rotator("point", 500, 20, "--config", config)) == (
         "rotator: azimuth 500° names a turn beyond the range of 0° to 450°; the same direction is 140°\n"
@@ -98,7 +98,7 @@ def test_anything_the_console_knows(box: Any, rotator_here: Rotator, config: Pat
 
 def test_what_is_refused_moves_and_stops_nothing(box: Any, rotator_here: Rotator, config: Path) -> None:
     done = rotator_here("confirm", "elevation", "-100", "--config", config)
-    assert why(done) == "rotator: '-100' is no elevation: degrees from -90 to 180\n"
+    assert why(done) == "rotator: '-100' is no elevation: degrees from -90 to 210\n"
     for words in (["polarisation", "10"], ["azimuth", "north"], ["azimuth", "43,8,5"]):
         assert rotator_here("confirm", *words, "--config", config).returncode == 2, words
     # A pot rotor has no end stop to find.

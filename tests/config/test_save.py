@@ -48,6 +48,13 @@ def test_comments_and_everything_else_stay(station: Path) -> None:
     assert "# by hand" in station.read_text()
 
 
+def test_a_range_that_leaves_the_park_position_out_takes_it_along(station: Path) -> None:
+    """Else the file would be refused, and the calibration lost."""
+    save_table(station, "azimuth", calibration=POINTS, min_deg=200.0, max_deg=451.0)
+    assert load(station).park_deg == (200.0, 0.0)
+    assert "park_azimuth_deg = 200        # south" in station.read_text()
+
+
 def test_the_file_before_is_kept(station: Path) -> None:
     save_table(station, "azimuth", calibration=POINTS)
     assert station.with_name("station.toml.bak").read_text() == STATION

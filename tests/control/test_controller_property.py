@@ -36,6 +36,7 @@ from rotator.exchange.orders import (
     Speed,
     Stop,
     Take,
+    Unheeded,
 )
 from rotator.exchange.sources import CONSOLE, Source
 from tests.search import examples
@@ -90,6 +91,7 @@ others = st.one_of(
     st.builds(RelaysChecked, axes),
     st.builds(Take),
     st.builds(GiveBack),
+    st.builds(Unheeded, st.just(Park()) | st.builds(Aim, azimuths, elevations)),
     st.builds(TakeTurn, st.floats(-90, 540), st.booleans(), st.floats(0, 200)),
 )
 healthy = st.floats(0.02, 0.98)

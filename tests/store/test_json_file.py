@@ -42,7 +42,7 @@ def test_there_and_back() -> None:
         ('{"format": "rotator test 1", "number": "five", "words": ""}', "invalid literal"),
         ('{"format": "rotator test 1", "number": null, "words": ""}', "int"),
         ('{"format": "rotator test 1", "number": 5, "words": 5}', "has no attribute"),
-        ("[" * 100_000, "recursion"),
+        ("[" * 100_000, "has too many brackets inside each other"),
     ],
     ids=lambda text: text[:40],
 )
