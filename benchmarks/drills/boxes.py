@@ -163,7 +163,8 @@ def _sector(
             if axis == beside:  # the other axis turns into it
                 low_deg = max(0.0, round(at_deg - chance.random() * wide_deg))
             spans.append([low_deg, low_deg + wide_deg])
-        parks = [(0.0, 0.0), (180.0, 0.0), (90.0, 90.0), start_deg]
+        least_deg = [tables[axis].get("min_deg", 0.0) for axis in BOTH]
+        parks = [(0.0, 0.0), (180.0, 0.0), (180.0, least_deg[1]), (least_deg[0], least_deg[1]), (90.0, 90.0), start_deg]
         if not any(
             all(low - 4.0 < at < high + 4.0 for at, (low, high) in zip(place, spans, strict=True)) for place in parks
         ):

@@ -61,12 +61,14 @@ def fenced(chance: random.Random, mast: Mast) -> Mast:
     mount = dict(mast.tables.get("mount", {}))
     if chance.random() >= SECTORS_SHARE or "forbidden" in mount:
         return mast
-    park_deg = mount.get("park_azimuth_deg", 180.0), mount.get("park_elevation_deg", 0.0)
+    tables = [mast.tables.get(axis, {}) for axis in BOTH]
+    ends_deg = [(table.get("min_deg", 0.0), table.get("max_deg", 1e3)) for table in tables]
+    parks_deg = mount.get("park_azimuth_deg", 180.0), mount.get("park_elevation_deg", 0.0)
+    # As `configured` does it.
+    park_deg = tuple(min(max(at, least), most) for at, (least, most) in zip(parks_deg, ends_deg, strict=True))
     free = [park_deg, (0.0, 0.0), (180.0, 0.0), (90.0, 90.0), mast.start_deg]
     found: list[dict[str, Any]] = []
     many = chance.choice(SECTORS)
-    tables = [mast.tables.get(axis, {}) for axis in BOTH]
-    ends_deg = [(table.get("min_deg", 0.0), table.get("max_deg", 1e3)) for table in tables]
     for number in range(20):
         spans = []
         for axis in range(2):
