@@ -27,15 +27,6 @@ _KINDS = {
     "model": "a table",
 }
 """The first word of a pydantic error type, in words for the user."""
-_SYNONYMS = {
-    "port": ("serial", "tcp"), "com": ("serial",), "comport": ("serial",), "device": ("serial",), "tty": ("serial",),
-    "host": ("tcp",), "listen": ("tcp",), "address": ("tcp",), "ip": ("tcp",), "speed": ("speed_dps", "baud"),
-    "lat": ("latitude_deg",), "lon": ("longitude_deg",), "long": ("longitude_deg",), "height": ("altitude_m",),
-    "grid": ("locator",), "gridsquare": ("locator",), "qth": ("locator",), "model": ("type",),
-    "tolerance": ("tolerance_deg",), "cw": ("azimuth_cw",), "ccw": ("azimuth_ccw",), "left": ("azimuth_ccw",),
-    "right": ("azimuth_cw",), "up": ("elevation_up",), "down": ("elevation_down",), "min": ("min_deg",),
-    "max": ("max_deg",), "offset": ("offset_deg",),
-}  # fmt: skip
 _PROTOCOL_OF = {
     "yaesu": "gs232b", "gs232": "gs232b", "g5500": "gs232b", "satpc32": "gs232b", "sattrack": "gs232-f1efw",
     "hamlib": "rotctld", "gpredict": "rotctld", "easycomm": "easycomm2", "spid": "rot2prog", "arduino": "gs232-f1efw",
@@ -136,8 +127,6 @@ def _right_key(place: list[int | str], value: object) -> str:
     known = list(models.get(here, Config).model_fields)
     if name.lower() == "name" and "type" in known and isinstance(value, str) and type_of(value):
         return f"; did you mean type? {type_of(value)}"
-    if meant := [key for key in _SYNONYMS.get(name.lower(), ()) if key in known]:
-        return f"; did you mean {' or '.join(meant)}?"
     if near := _near(name.lower(), known, 0.75):
         return f"; did you mean {near}?"
     elsewhere = [table for table, model in models.items() if name in model.model_fields and table != here]
