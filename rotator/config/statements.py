@@ -19,7 +19,6 @@ _KEY = re.compile(r"""\s*((?:[\w-]+|"[^"]*"|'[^']*')(?:\s*\.\s*(?:[\w-]+|"[^"]*"
 _NEXT = re.compile(r"\s*(?:[A-Za-z_][\w.-]*\s*=|\[\[?[A-Za-z_][\w. -]*\]\]?\s*(?:#.*)?$)")
 """A line like this begins something new, even where a list before it has not been closed."""
 _TOKENS = re.compile(r'"""|\'\'\'|(?<!\\)"(?:\\.|[^"\\])*+"|\'[^\']*\'|#.*|[\[\]{}]')
-_CLOSES = {"[": "]", "{": "}"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +32,6 @@ class Statement:
     """The parts of its name; empty for what is neither heading nor key."""
     brackets: int = 0
     """Of a heading: 1 or 2; 0 for a key."""
-    unclosed: str = ""
-    """The brackets that its value lacks at the end."""
 
 
 def statements(text: str) -> list[Statement]:
@@ -50,8 +47,8 @@ def statements(text: str) -> list[Statement]:
             if heading and not key:
                 found.append(Statement(at + 1, at + 1, parts(heading[2]), len(heading[1])))
             elif key:
-                last, unclosed = _end_of_value(lines, at, key.end())
-                found.append(Statement(at + 1, last + 1, parts(key[1]), 0, unclosed))
+                last = _end_of_value(lines, at, key.end())
+                found.append(Statement(at + 1, last + 1, parts(key[1])))
                 at = last
             else:
                 found.append(Statement(at + 1, at + 1))
@@ -100,9 +97,9 @@ def _inside(table: Place, counts: Mapping[Place, int]) -> Place:
     return (*table, counts[table]) if table in counts else table
 
 
-def _end_of_value(lines: list[str], first: int, begin: int) -> tuple[int, str]:
-    """The index of the last line of a value that begins in line `first`, and the brackets it lacks."""
-    depth: list[str] = []
+def _end_of_value(lines: list[str], first: int, begin: int) -> int:
+    """The index of the last line of a value that begins in line `first`."""
+    depth = 0
     quote = ""
     at, text = first, lines[first][begin:]
     while True:
@@ -111,13 +108,12 @@ def _end_of_value(lines: list[str], first: int, begin: int) -> tuple[int, str]:
                 case '"""' | "'''":
                     quote = "" if quote else token
                 case "[" | "{":
-                    depth.append(_CLOSES[token])
-                case "]" | "}" if depth:
-                    depth.pop()
-        if not depth and not quote:
-            return at, ""
-        if at + 1 == len(lines) or (not quote and _NEXT.match(lines[at + 1])):
-            return at, quote or "".join(reversed(depth))
+                    depth += 1
+                case "]" | "}":
+                    depth = max(depth - 1, 0)
+        over = not depth and not quote
+        if over or at + 1 == len(lines) or (not quote and _NEXT.match(lines[at + 1])):
+            return at
         at += 1
         text = lines[at]
 
