@@ -33,12 +33,12 @@ class MotionWatch:
         axis: Axis,
         limits: Range,
         motors: Mapping[Direction, Motor],
+        behind_s: float = 0.0,
         *,
         master: bool,
         trusts: Trusts,
         placed: bool,
         look: bool,
-        behind_s: float = 0.0,
     ) -> None:
         self._axis = axis
         self._limits = limits

@@ -43,7 +43,7 @@ class ObservedMotion:
         self.behind_s = behind_s
         self.limits = limits
         self.motors = motors
-        self.trend = Trend()
+        self.trend = Trend(behind_s)
         self.relays = RelayState()
         self.motor = motors[Direction.PLUS]
         """The motor of the present or latest run, as it was known when the run began."""
@@ -58,8 +58,8 @@ class ObservedMotion:
 
     def see(self, at_s: float, angle_deg: float) -> bool:
         """A good reading. Returns whether it lies on the line of the others."""
-        plus, minus = self.motors.values()
-        return self.trend.see(at_s, angle_deg, max(plus.speed_dps, minus.speed_dps))
+        steady = self.relays.since_s + 3.0 * self.behind_s <= at_s  # three readings that share nothing are newer
+        return self.trend.see(at_s, angle_deg, max(each.speed_dps for each in self.motors.values()), steady=steady)
 
     def show(self, speed_dps: float) -> None:
         """The axis turns that fast for certain."""
@@ -68,8 +68,7 @@ class ObservedMotion:
     @property
     def believed_dps(self) -> float:
         """The speed of the slower direction, as its motor is known."""
-        plus, minus = self.motors.values()
-        return min(plus.speed_dps, minus.speed_dps)
+        return min(each.speed_dps for each in self.motors.values())
 
     @property
     def reference_dps(self) -> float:

@@ -137,11 +137,8 @@ class RelayGate:
 
 
 def _new_watch(settings: SwitchedSettings, motors: Mapping[Direction, Motor], *, placed: bool) -> RelayWatch:
-    axis, limits, homing = settings.axis, settings.limits, settings.homing
+    axis, limits, homing, behind_s = settings.axis, settings.limits, settings.homing, settings.behind_s
     master, trusts, look = settings.master, settings.trusts, settings.look
     if homing is None:
-        behind_s = settings.behind_s
-        return MotionWatch(
-            axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look, behind_s=behind_s
-        )
+        return MotionWatch(axis, limits, motors, behind_s, master=master, trusts=trusts, placed=placed, look=look)
     return RunWatch(axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look)

@@ -58,9 +58,8 @@ class RunOn:
         slowed = slope.speed_dps * line.way + 3.0 * slope.error_dps < SLOWED_SHARE * least_dps
         passed_s = at_s - ended.off_s
         gone_deg = (place_deg - ended.angle_deg) * line.way
-        coasts = not self._went_far(ended, gone_deg)
         still_coasts = self._still_coasts(at_s, passed_s, gone_deg, line)
-        if (slowed and coasts and free) or still_coasts:
+        if (slowed and free and not self._went_far(ended, gone_deg)) or still_coasts:
             return True
         if passed_s >= RAN_ON_S + self._seen.behind_s and ended.lasted_s >= STEADY_S:
             self._going = self._going + 1 if self._goes_on(line, passed_s, gone_deg) else 0

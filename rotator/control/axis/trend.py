@@ -51,11 +51,15 @@ class Slope:
 
 
 class Trend:
-    """Give it every good reading of one axis (`see`), in order of time. Speeds are in degrees a second."""
+    """Give it every good reading of one axis (`see`), in order of time. Speeds are in degrees a second.
 
-    def __init__(self) -> None:
+    `behind_s`: a reading shows a time that began at most so long ago. What two share does not scatter between them.
+    """
+
+    def __init__(self, behind_s: float = 0.0) -> None:
+        self._shared_s = behind_s + LEAST_GAP_S
         self.noise_deg = _FIRST_NOISE_DEG
-        """Scatter of the readings, rms, as seen up to now."""
+        """Scatter of the readings, rms, as seen up to now; of independent ones that would make as exact a line."""
         self._kept: deque[SeenAt] = deque()
         self._first: list[float] = []
         """The distance of each of the first readings from the line through its neighbours, scaled to the noise."""
@@ -69,26 +73,23 @@ class Trend:
     def last_s(self) -> float:
         return self._kept[-1][0] if self._kept else -math.inf
 
-    def see(self, at_s: float, angle_deg: float, fastest_dps: float) -> bool:
+    def see(self, at_s: float, angle_deg: float, fastest_dps: float, *, steady: bool = True) -> bool:
         """A good reading of an axis that turns at most that fast. Returns whether the line was continued, or begun.
 
-        A new line begins where the axis cannot have turned so far.
+        A new line begins where the axis cannot have turned so far. `steady`: its scatter may be learnt.
         """
         passed_s = at_s - self.last_s
         if passed_s < LEAST_GAP_S:
             return False
-        elsewhere = passed_s > LONGEST_GAP_S or abs(angle_deg - self._kept[-1][1]) > spark_deg(
-            passed_s, fastest_dps, self.noise_deg
-        )
-        if elsewhere:
+        turns_deg = spark_deg(passed_s, fastest_dps, self.noise_deg)
+        if passed_s > LONGEST_GAP_S or abs(angle_deg - self._kept[-1][1]) > turns_deg:
             self._kept.clear()
         self._kept.append((at_s, angle_deg))
         if len(self._kept) >= LEAST_READINGS:
-            before, middle, after = self._kept[-3], self._kept[-2], self._kept[-1]
-            if self._lone(before, middle, after, fastest_dps):
+            if self._lone(fastest_dps):
                 del self._kept[-2]
-            else:
-                self._note_noise(before, middle, after)
+            elif steady:
+                self._note_noise()
         while at_s - self._kept[0][0] > KEPT_S:
             self._kept.popleft()
         return True
@@ -124,21 +125,25 @@ class Trend:
             gap_s = (self.last_s - self.since_s) / (len(self._kept) - 1)
         return float((self.noise_deg * math.sqrt(12.0 * gap_s) / error_dps) ** (2.0 / 3.0))
 
-    def _lone(self, before: SeenAt, middle: SeenAt, after: SeenAt, fastest_dps: float) -> bool:
+    def _lone(self, fastest_dps: float) -> bool:
         """Whether the reading before the latest one lies apart from both its neighbours, on one side."""
         if len(self._first) < _FIRST_READINGS:
             return False
-        (before_s, before_deg), (_, angle_deg), (after_s, after_deg) = before, middle, after
+        (before_s, before_deg), (_, angle_deg), (after_s, after_deg) = list(self._kept)[-LEAST_READINGS:]
         out_deg, back_deg = angle_deg - before_deg, angle_deg - after_deg
         least_deg = max(LONE_DEG, LONE_NOISES * self.noise_deg) + fastest_dps * (after_s - before_s)
         return out_deg * back_deg > 0.0 and min(abs(out_deg), abs(back_deg)) > least_deg
 
-    def _note_noise(self, before: SeenAt, middle: SeenAt, after: SeenAt) -> None:
-        """Follow the median of how far a reading is off the line through its neighbours: starting motors hardly change
-        it."""
-        (before_s, before_deg), (at_s, angle_deg), (after_s, after_deg) = before, middle, after
+    def _note_noise(self) -> None:
+        """Follow the median of how far a reading is off the line through its nearest neighbours that share nothing with
+        it: starting motors hardly change it."""
+        alike = sum(self.last_s - seen_s < self._shared_s for seen_s, _ in self._kept)
+        apart = list(self._kept)[::-alike]
+        if len(apart) < LEAST_READINGS:
+            return
+        (after_s, after_deg), (at_s, angle_deg), (before_s, before_deg) = apart[:3]
         share = (at_s - before_s) / (after_s - before_s)
-        off_deg = abs(angle_deg - before_deg - share * (after_deg - before_deg))
+        off_deg = abs(angle_deg - before_deg - share * (after_deg - before_deg)) * math.sqrt(alike)
         scatter = math.sqrt(1.0 + share**2 + (1.0 - share) ** 2)
         if len(self._first) < _FIRST_READINGS:
             self._first.append(off_deg / scatter)

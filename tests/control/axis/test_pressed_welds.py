@@ -22,6 +22,8 @@ SEED = random.SystemRandom().randrange(10**6)
 TOLD_S = 4.0
 """A weld is told after two seconds of its motor, and two more."""
 LONGEST_AVERAGE_S = 0.3
+FOUND = ("660242 pressed 576", "1 pressed 50", "1 pressed 84")
+"""Cases that once failed: readings averaged by the sensor scatter less from one to the next than they are off."""
 
 
 def draw_lens(chance: random.Random, cycle_s: float) -> Lens:
@@ -84,9 +86,9 @@ class PressedWorld(WeldWorld):
 
 
 @pytest.mark.search
-@pytest.mark.parametrize("number", some(range(600)))
-def test_both_directions_never_have_current(number: int) -> None:
-    seed = f"{SEED} pressed {number}"
+@pytest.mark.parametrize("case", [*FOUND, *some(range(600))])
+def test_both_directions_never_have_current(case: int | str) -> None:
+    seed = f"{SEED} pressed {case}" if isinstance(case, int) else case
     world = PressedWorld(seed)
     chance, way = world.chance, world.way
     if chance.random() < 0.5:
@@ -106,9 +108,9 @@ def test_both_directions_never_have_current(number: int) -> None:
 
 
 @pytest.mark.search
-@pytest.mark.parametrize("number", some(range(160)))
-def test_a_weld_is_told_though_its_relay_closes_again_and_again(number: int) -> None:
-    seed = f"{SEED} again {number}"
+@pytest.mark.parametrize("case", ["1 again 23", *some(range(160))])
+def test_a_weld_is_told_though_its_relay_closes_again_and_again(case: int | str) -> None:
+    seed = f"{SEED} again {case}" if isinstance(case, int) else case
     world = PressedWorld(seed, amid=True)
     chance, way = world.chance, world.way
     press_s, pause_s = chance.choice(((0.5, 1.3), (0.5, 0.8), (0.2, 0.6), (0.3, 0.3), (0.6, 0.6), (1.0, 1.0)))

@@ -7,6 +7,7 @@ import random
 import pytest
 
 from rotator.control.axis.trend import Trend
+from tests.control.axis.weld_world import Lens
 
 STEP_S = 0.05
 NOISES_DEG = pytest.mark.parametrize("noise_deg", [0.0, 0.1, 0.4])
@@ -66,6 +67,25 @@ def test_a_line_of_the_length_asked_for_is_as_exact_as_asked(every_s: float, err
     if 5 * every_s < window_s < trend.last_s - trend.since_s:
         assert slope is not None
         assert slope.error_dps == pytest.approx(error_dps, rel=0.25)
+
+
+@pytest.mark.parametrize(
+    ("averaged", "low_pass_s", "delayed"), [(1, 0.0, 0), (4, 0.0, 0), (7, 0.0, 0), (1, 0.1, 0), (4, 0.0, 4)]
+)
+@pytest.mark.parametrize("speed_dps", [0.0, 6.0])
+def test_a_line_is_as_exact_as_it_says_though_the_sensor_averages(
+    averaged: int, low_pass_s: float, delayed: int, speed_dps: float
+) -> None:
+    """Readings that share their time differ less from one to the next than they are off."""
+    lens = Lens(averaged, low_pass_s, delayed)
+    chance, trend, off = random.Random(8), Trend(lens.behind_s(STEP_S)), []
+    for count in range(4000):
+        at_s = count * STEP_S
+        trend.see(at_s, lens.see(speed_dps * at_s + chance.gauss(0.0, 0.1), STEP_S), speed_dps)
+        slope = trend.slope(at_s - 2.0)
+        if count > 200 and slope is not None:
+            off.append((slope.speed_dps - speed_dps) / slope.error_dps)
+    assert sum(each**2 for each in off) / len(off) < 1.5
 
 
 def test_the_length_is_known_from_the_first_reading_on() -> None:
