@@ -22,7 +22,8 @@ from rotator.exchange.orders import Aim
 PLAN_EVERY_S = 0.5
 ROUTE_EVERY_S = 3.0
 SURE_AFTER_S = 45.0
-"""A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
+"""A track this long predicts the end of the pass well enough. A shorter one is trusted for as long ahead as it has
+lasted; there the target stands."""
 WAVERS_DEG = 90.0
 """An order this near to the one before may be the same target, which wavers."""
 LONGEST_LEAD_S = 15.0
@@ -195,16 +196,18 @@ class Pointing:
 
     def _choose_way(self, now_s: float, speeds: Speeds) -> None:
         assert self._way is not None
-        if self._track.age_s(now_s) < SURE_AFTER_S or self._led_until_s > now_s:
+        if self._led_until_s > now_s:
             return
         if (self.wanted.azimuth_deg or 0.0) > FULL_TURN_DEG or self._is_over(self.wanted):  # the sender names its way
             return
         if self._routed_s is not None and now_s - self._routed_s < ROUTE_EVERY_S:
             return
         self._routed_s = now_s
+        age_s = self._track.age_s(now_s)
+        trusted_s = age_s if age_s < SURE_AFTER_S else math.inf
         directions = [self._track.direction(now_s)]
         for look in range(1, LOOKS):
-            direction = self._track.direction(now_s + look * STEP_S)
+            direction = self._track.direction(now_s + min(look * STEP_S, trusted_s))
             if direction[1] < 0:
                 break
             directions.append(direction)

@@ -22,7 +22,9 @@ LOST_DEG = 10.0
 WORTH_S = 5.0
 """A change of way must save this much, so that small changes of the prediction do not turn the antenna."""
 EQUAL_S = 2.0
-"""Moments for the change that differ by less are equally good; the earliest is taken."""
+"""Moments for the change that differ by less are equally good. The earliest is taken where the other way reaches the
+target already. Else the target has not crossed the end of the range: the change waits as long as nothing is lost by it,
+because the target may still turn back."""
 
 Direction = tuple[float, float]
 
@@ -49,7 +51,7 @@ def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds
     `directions`: where the target will be, `STEP_S` apart, from now to where it sets.
     """
     here = Flown(mount, directions, present)
-    best_s, change = here.lost_s[-1] - WORTH_S, None
+    best_s = here.lost_s[-1] - WORTH_S
     if best_s <= 0.0:  # no other way can lose so much less
         return present
     ways = [Way(present.azimuth_deg + turn, present.flipped) for turn in (-360.0, 360.0)]
@@ -58,12 +60,14 @@ def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds
     plans = []
     for way in ways:
         there = Flown(mount, directions, way)
-        plans += [(there.lost_after_change_s(here, look, speeds), look, way) for look in range(len(directions))]
-    if plans:
-        least_s = min(plan[0] for plan in plans)
-        if least_s < best_s:
-            change = min((plan for plan in plans if plan[0] <= least_s + EQUAL_S), key=lambda plan: (plan[1], plan[0]))
-    return change[2] if change is not None and change[1] == 0 else present
+        plans += [(there.lost_after_change_s(here, look, speeds), look, there) for look in range(len(directions))]
+    least_s = min(plan[0] for plan in plans)
+    if least_s >= best_s:
+        return present
+    equal = [plan for plan in plans if plan[0] <= least_s + EQUAL_S]
+    _, look, there = min(equal, key=lambda plan: (plan[1], plan[0]))
+    can_wait = there.errors_deg[look] > 0.0 and any(later and here.lost_s[later] <= 0.0 for _, later, _ in equal)
+    return present if look or can_wait else there.way
 
 
 def share_lost(off_deg: float) -> float:

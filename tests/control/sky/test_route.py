@@ -76,5 +76,14 @@ def test_without_a_path_ahead_everything_stays() -> None:
 def test_of_two_changes_the_one_that_takes_less_time_is_made(elevation_dps: float, flipped: bool) -> None:
     """Through north at 20° of elevation: a whole turn takes 60 s; over the top 140° of elevation take 52 s, or 70."""
     speeds = Speeds(6.0, elevation_dps)
-    found = best_way(NO_OVERLAP, through(340.0, 1.0, 30), Way(340.0, flipped=False), speeds, may_flip=True)
-    assert found == (Way(160.0, flipped=True) if flipped else Way(-20.0, flipped=False))
+    found = best_way(NO_OVERLAP, through(361.0, 1.0, 30), Way(361.0, flipped=False), speeds, may_flip=True)
+    assert found == (Way(181.0, flipped=True) if flipped else Way(1.0, flipped=False))
+
+
+@pytest.mark.parametrize("before_deg", [-4.0, -1.0, 1.0, 4.0, 20.0, 60.0])
+def test_a_change_to_a_way_that_does_not_reach_the_target_yet_waits_for_the_end_of_the_range(before_deg: float) -> None:
+    """Begun earlier it would save nothing, and the target may turn back."""
+    first_deg = 360.0 - before_deg
+    present = Way(first_deg, flipped=False)
+    changes = way(NO_OVERLAP, through(first_deg, 1.0, 40), present) != present
+    assert changes is (before_deg < 0.0)
