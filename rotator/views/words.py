@@ -85,10 +85,10 @@ def headline(status: Status) -> tuple[str, str]:
 
 
 def _at_rest(status: Status) -> tuple[str, str]:
-    """The words for a box at rest. An axis that lost its order, as by a fault, does not point at its target."""
+    """The words for a box at rest. An axis without an order, or that lost it by a fault, points at no target."""
     if off_deg(status) is None:
         return "AT REST", PLAIN
-    lost = [axis for axis in Axis if status.axis(axis).target_deg is None and status.wanted_deg(axis) is not None]
+    lost = [axis for axis in Axis if status.axis(axis).target_deg is None]
     if not lost:
         return "ON TARGET", GOOD
     if (there := next((axis for axis in Axis if axis not in lost), None)) is None:
