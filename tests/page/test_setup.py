@@ -23,6 +23,8 @@ from tests.page.test_dashboard import PHONE, STATION, waits_for
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+PlaywrightTimeout = pytest.importorskip("playwright.sync_api").TimeoutError
+
 Start = Callable[..., Station]
 Visit = Callable[..., "Page"]
 REMARK = "[mount]\npark_azimuth_deg = 90   # away from the trees\n"
@@ -189,7 +191,10 @@ class Calibration:
         self._station, self._page, self._axis = station, page, axis
 
     def asked(self, question: str) -> None:
-        self._page.locator(".prompt", has_text=question).wait_for()
+        try:
+            self._page.locator(".prompt", has_text=question).wait_for()
+        except PlaywrightTimeout:
+            pytest.fail(f"never asked {question!r}: {self._page.locator('.step[open]').inner_text()}")
 
     def turn(self, way: str) -> None:
         before = self._station.world().relay_starts
