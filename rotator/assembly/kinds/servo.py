@@ -21,7 +21,9 @@ def build(parts: Assembly, lines: OutputLines | None) -> ServoRotor:
 
     def spec(axis: Axis) -> ServoSpec:
         table = tables.of(axis)
-        return ServoSpec(table.channel, tuple(table.pulses_us), parts.first_deg(axis, table.start_deg), table.slew_dps)
+        # Where no file keeps the last angle, the first pulse is the file's: also in a simulation, wherever it began.
+        first_deg = parts.first_deg(axis, table.start_deg) if parts.config.keeps_files else table.start_deg
+        return ServoSpec(table.channel, tuple(table.pulses_us), first_deg, table.slew_dps)
 
     enable = None
     if tables.enable is not None:
