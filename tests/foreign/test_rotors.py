@@ -23,8 +23,9 @@ PATIENCE_S = 60.0
 NEAR_DEG = 4.5
 """The coarsest tolerance of them, and half a degree for whole-degree replies."""
 GOALS = {"u100": (14.0, 0.0), "isel": (40.0, 30.0), "servos": (120.0, 70.0), "orbit360": (168.0, 0.0)}
-STARTS = {"orbit360": 180.0}
-"""Where the simulated azimuth begins, where that is not 0: there the file takes it to stand."""
+STARTS = {"orbit360": 180.0, "isel": 10.0}
+"""Where the simulated azimuth begins, where that is not 0: there the file takes it to stand; at 0 a motor whose encoder
+knows one turn asks a person whether that is 0 or 360."""
 
 
 @dataclass(frozen=True, slots=True)
