@@ -36,7 +36,7 @@ def places_twice(links: Sequence[Link]) -> list[str]:
         users.setdefault((link.where, link.connect, link.udp), []).append(number)
     return [
         f"{len(numbers)} links use {where}: {' and '.join(f'link[{number}]' for number in numbers)}: "
-        f"{_another_place(links[numbers[-1]], links)}"
+        "give one of them another place"
         for (where, *_), numbers in users.items()
         if len(numbers) > 1
     ]
@@ -59,14 +59,3 @@ def needs_station(links: Sequence[Link]) -> list[str]:
         for number, link in enumerate(links)
         if link.protocol in NEEDS_STATION
     ]
-
-
-def _another_place(link: Link, links: Sequence[Link]) -> str:
-    """What to write where a place is taken."""
-    if not (listens := link.tcp or link.udp):
-        return "give one of them another place" if link.pty else "leave one of them"
-    host, port = listens.rpartition(":")[::2]
-    used = {each.where.rpartition(":")[2] for each in links}
-    free = next(number for number in range(int(port) + 1, int(port) + 1000) if str(number) not in used)
-    key = "tcp" if link.tcp else "udp"
-    return f'each needs a port of its own: write {key} = "{host}:{free}" into one of them'

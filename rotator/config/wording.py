@@ -32,8 +32,6 @@ _PROTOCOL_OF = {
     "hamlib": "rotctld", "gpredict": "rotctld", "easycomm": "easycomm2", "spid": "rot2prog", "arduino": "gs232-f1efw",
 }  # fmt: skip
 """What a person calls a protocol, in small letters and digits, and the one that is meant."""
-_EVERYWHERE = ("name", "type", "kind")
-"""Keys of tables that have nothing to do with each other: in another table they would mean something else."""
 _LISTENS = ("tcp", "listen")
 """Keys for a port of this machine: a bare number is the port."""
 
@@ -127,12 +125,6 @@ def _right_key(place: list[int | str], value: object) -> str:
     known = list(models.get(here, Config).model_fields)
     if name.lower() == "name" and "type" in known and isinstance(value, str) and type_of(value):
         return f"; did you mean type? {type_of(value)}"
-    if near := _near(name.lower(), known, 0.75):
-        return f"; did you mean {near}?"
-    elsewhere = [table for table, model in models.items() if name in model.model_fields and table != here]
-    elsewhere = [] if name in _EVERYWHERE else elsewhere
-    if elsewhere:
-        return f"; it belongs below {_or([_heading(table) for table in elsewhere[:4]])}"
     near = _near(name.lower(), known, 0.6)
     return f"; did you mean {near}?" if near else f"; known here: {', '.join(known)}"
 
@@ -172,7 +164,3 @@ def _choices(context: Mapping[str, Any]) -> list[str]:
 
 def _near(word: str, known: list[str], cutoff: float) -> str | None:
     return next(iter(difflib.get_close_matches(word, known, n=1, cutoff=cutoff)), None)
-
-
-def _or(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"

@@ -41,7 +41,7 @@ def test_it_has_a_place_and_a_pace() -> None:
         ),
         (
             link("rotctld-follow", connect="a:1") * 2,
-            "2 links use a:1: the first [[link]] and the second [[link]]: leave one of them",
+            "2 links use a:1: the first [[link]] and the second [[link]]: give one of them another place",
         ),
     ],
 )

@@ -27,8 +27,7 @@ def test_tcp_and_udp_are_different_places() -> None:
     both = link("rotctld", tcp="127.0.0.1:12000") + link("pstrotator", udp="127.0.0.1:12000")
     assert faults(both) == []
     assert faults(link("n1mm", udp="0.0.0.0:1") + link("macdoppler", udp="0.0.0.0:1")) == [
-        "2 links use 0.0.0.0:1: the first [[link]] and the second [[link]]: "
-        'each needs a port of its own: write udp = "0.0.0.0:2" into one of them'
+        "2 links use 0.0.0.0:1: the first [[link]] and the second [[link]]: give one of them another place"
     ]
 
 
