@@ -135,7 +135,10 @@ def read_csv(text: str) -> Iterator[Elements | str]:
     rows = text.split("\n")
     above = next((at for at, row in enumerate(rows) if row.strip() and not row.startswith("#")), 0)
     lines = csv.DictReader(rows[above:])
-    heading = [name.strip() for name in lines.fieldnames or ()]
+    try:
+        heading = [name.strip() for name in lines.fieldnames or ()]
+    except csv.Error as fault:
+        raise ValueError(f"line {above + 1}: {fault}") from fault
     missing = [name for name in ("NORAD_CAT_ID", "EPOCH", *FIELDS) if name not in heading]
     if missing:
         raise ValueError(f"line {above + 1}: the heading lacks {', '.join(missing)}")

@@ -213,7 +213,10 @@ class Pointing:
             directions.append(direction)
         # A program that flips itself has decided already.
         may_flip = (self.wanted.elevation_deg or 0.0) <= ZENITH_DEG
-        self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
+        way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
+        # A young track may be a target that wavers: a swing for it waits as any other does.
+        if way != self._way and (age_s >= SURE_AFTER_S or self._swings.may_begin(now_s)):
+            self._way = way
 
     def _calm_way(self, now_s: float, aim: Aim, way: Way, azimuth_deg: float) -> Way:
         """The way to a new order. If only a swing right round leads there, and swings must wait: the present way.
