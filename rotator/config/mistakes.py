@@ -23,7 +23,6 @@ ENOUGH = 200
 _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 """What may be a key in the words of a mistake."""
 _PLACE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
-_DIGITS = re.compile(r"[\d_]+")
 _WRITTEN = 'a number is written 4.5, a text "in quotes", and a remark begins with #'
 
 
@@ -50,7 +49,7 @@ def _no_toml(text: str, reason: str) -> Mistake:
     rows = text.split("\n")
     at = _PLACE.search(reason)
     if at is None:  # too much of it; or Python itself refuses a whole number with more than some thousand digits
-        longest = [max(map(len, _DIGITS.findall(row)), default=0) for row in rows]
+        longest = [max(map(len, re.findall(r"[\d_]+", row)), default=0) for row in rows]
         endless = tuple(number for number, digits in enumerate(longest, 1) if digits > 4300)[:1]
         return Mistake("a number has thousands of digits" if endless else reason, endless)
     last = max((number for number, row in enumerate(rows, 1) if row.strip()), default=1)
@@ -81,7 +80,7 @@ def _located(error: ErrorDetails, lines: Mapping[Place, tuple[int, ...]]) -> Ite
         if error["type"] != "value_error":
             yield Mistake(words, _line_of(place, lines))
             continue
-        sentence = words.removeprefix(f"{_dotted(place)}:") if place else words
+        sentence = words.removeprefix(f"{'.'.join(map(str, place))}:") if place else words
         named = [line for path in _PATHS.findall(sentence) for line in lines.get((*place, *_place(path)), ())]
         yield Mistake(words, tuple(sorted(set(named))) or _line_of(place, lines))
 
@@ -94,7 +93,3 @@ def _line_of(place: Place, lines: Mapping[Place, tuple[int, ...]]) -> tuple[int,
 
 def _place(path: str) -> Place:
     return tuple(int(part) if part.isdigit() else part for part in re.split(r"[.\[\]]+", path) if part)
-
-
-def _dotted(place: Place) -> str:
-    return ".".join(str(part) for part in place)
