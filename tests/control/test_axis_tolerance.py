@@ -54,7 +54,9 @@ def test_along_any_stream_no_motor_starts_early_and_none_rests_late(  # noqa: PL
     for count in range(round(30 / every_s)):
         t_s = count * every_s
         az_deg, el_deg = azimuth_deg + az_dps * t_s, elevation_deg + el_dps * t_s
-        if not (0 <= az_deg <= 450 and 0 <= el_deg <= 90):
+        # The box looks as far ahead as the stream has lasted, and turns round before the target is beyond the end.
+        seen_ahead_deg = azimuth_deg + az_dps * (2 * t_s + 10)
+        if not (0 <= seen_ahead_deg <= 450 and 0 <= el_deg <= 90):
             break
         orders = [Aim(az_deg if az_deg > 360 else az_deg % 360, el_deg)]
         target = {AZ: az_deg, EL: el_deg}
