@@ -11,15 +11,12 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
-from functools import partial
 
 from benchmarks.drills.boxes import KINDS
-from benchmarks.drills.planted.hunt import ROOT, CampaignError, Hunt, copied, hunt, scripted
+from benchmarks.drills.planted.hunt import ROOT, CampaignError, Hunt, copied, hunt, seen
 from benchmarks.drills.planted.patch import Bug, Misfit, bugs, plant, take_back
 
 HOURS = 5.0
@@ -77,11 +74,9 @@ def _change(known: dict[str, Bug], planted: str | None, taken_back: str | None) 
 
 def _play_scripts(chosen: list[Bug]) -> int:
     unseen = 0
-    # Threads: each waits for processes of its own, of which there are as many at once as there are cores.
-    with copied() as sound, ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        for bug, judge in zip(chosen, pool.map(partial(scripted, sound=sound), chosen), strict=True):
-            unseen += judge not in bug.judges
-            print(f"{bug.name:36} {judge or 'NOT SEEN'}", flush=True)
+    for bug, judge in seen(chosen):
+        unseen += not judge
+        print(f"{bug.name:36} {judge or 'NOT SEEN'}", flush=True)
     print(f"{len(chosen) - unseen} of {len(chosen)} planted bugs seen by their judges")
     return 1 if unseen else 0
 

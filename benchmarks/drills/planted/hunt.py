@@ -13,9 +13,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +88,14 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
                 also_without.append(drawn_from)
             seed += 1
     return Hunt(bug, played_h, None, tuple(also_without))
+
+
+def seen(chosen: Sequence[Bug]) -> Iterator[tuple[Bug, str]]:
+    """Each bug with the judge that sees it in its own script; empty: none of its judges does. Raises CampaignError."""
+    # Threads: each waits for processes of its own, of which there are as many at once as there are cores.
+    with copied() as sound, ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        for bug, judge in zip(chosen, pool.map(partial(scripted, sound=sound), chosen), strict=True):
+            yield bug, judge if judge in bug.judges else ""
 
 
 def scripted(bug: Bug, sound: Path) -> str:

@@ -10,11 +10,11 @@ import random
 
 import pytest
 
+from benchmarks.weld_world import Lens, Relays, WeldWorld
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from hw.ports import Direction
 from rotator.control.sky.goal import AimGoal
 from rotator.exchange.motor import ALL_OPEN
-from tests.control.axis.weld_world import Lens, Relays, WeldWorld
 from tests.search import some
 
 MINUS, OFF, PLUS = Direction

@@ -6,8 +6,8 @@ import random
 
 import pytest
 
+from benchmarks.weld_world import Lens
 from rotator.control.axis.trend import Trend
-from tests.control.axis.weld_world import Lens
 
 STEP_S = 0.05
 NOISES_DEG = pytest.mark.parametrize("noise_deg", [0.0, 0.1, 0.4])

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import pytest
 
+from benchmarks.weld_world import WeldWorld
 from hw.ports import Direction
-from tests.control.axis.weld_world import WeldWorld
 from tests.search import some
 
 SEEDS = some(range(12))

@@ -120,6 +120,9 @@ class WeldWorld:
         self._relays.supply(on=False, now_s=self.now_s)
         self._weld: tuple[int, float] | None = None
         self.faults: set[str] = set()
+        self.untold_s = self.longest_untold_s = 0.0
+        """For how long a welded relay has turned its motor, with none ordered on, until a fault first told of it."""
+        self._told = False
         self.lens = Lens()
         self.axis = self._program(ALL_OPEN)
 
@@ -200,6 +203,16 @@ class WeldWorld:
             if fault.cut and self._relays.master:
                 self._relays.open(self.now_s)
                 self._relays.supply(on=False, now_s=self.now_s)
+        self._note_untold()
+
+    def _note_untold(self) -> None:
+        if not self.motor.welded:
+            self._told, self.untold_s = False, 0.0
+        elif self.axis.fault is not None:
+            self._told = True
+        elif self.motor.drive and self.motor.speed_dps and not self._relays.on and not self._told:
+            self.untold_s += self.cycle_s
+            self.longest_untold_s = max(self.longest_untold_s, self.untold_s)
 
     def _obey(self, command: object) -> None:
         match command:
