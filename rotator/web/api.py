@@ -6,6 +6,7 @@ same. Who may ask for what is in `entrance`.
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -20,18 +21,20 @@ from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
 from rotator.store.paired import Paired
-from rotator.web import assets, openapi, scene_schema, tables
+from rotator.web import assets, openapi, tables
 from rotator.web.api_page import api_page
 from rotator.web.connections import Connections, machine
 from rotator.web.doors import Doors
 from rotator.web.entrance import Entrance, add_headers, error, source_of, values_of
+from rotator.web.facts import BoxFacts, Station, box
 from rotator.web.holding import Holding
 from rotator.web.live import LONGEST_SIGN, MESSAGES, Live
-from rotator.web.logs import LogLines
+from rotator.web.logs import LatestLines, LogLines
 from rotator.web.pairing import Pairings
 from rotator.web.pairing_api import PairingApi, hello
+from rotator.web.past import PastMinutes
 from rotator.web.route import FREE, MOST_BODY, PAIRED, READING, Handler, Route, get, live
-from rotator.web.scene import Scene, Station, box
+from rotator.web.scene import FlightPath, Scene
 from rotator.web.schema import component
 
 Group = Callable[[Entrance], Sequence[Route]]
@@ -67,30 +70,28 @@ class Api:
         self._live = live
         self._entrance = Entrance(parts.doors, parts.pairings, connections, reading_open=parts.reading_open)
         self._assets = assets.load()
+        self._routes: Sequence[Route] = ()
+        self._description: asyncio.Task[dict[str, Any]] | None = None
         self._operating: dict[int, Operating] = {}
         """One for each number of a paired browser; 0: all browsers without pairing, which may only stop."""
 
     def application(self) -> web.Application:
-        routes = [
+        itself = ("This description, as OpenAPI 3.1", openapi.ITSELF)
+        routes = self._routes = [
             *self._reads(),
             *PairingApi(self._entrance, self._parts.pairings, self._parts.utc).routes(),
             *(openapi.order(each, self._order(each)) for each in METHODS),
             tables.route(self._entrance, self._as, self._parts.scene.with_names),
             *(route for group in self._parts.groups for route in group(self._entrance)),
+            get("/api/openapi.json", self._describe, itself, access=FREE),
         ]
-
-        async def describe(_request: web.Request) -> web.StreamResponse:
-            return web.json_response(description)
-
-        itself = ("This description, as OpenAPI 3.1", {"type": "object"})
-        routes.append(get("/api/openapi.json", describe, itself, access=FREE))
-        description = openapi.description(routes)
-        self._assets["/api"] = self._assets["/api/"] = assets.packed(assets.HTML, api_page(description).encode())
         self._entrance.most_body = {route.path: route.most_body for route in routes}
         app = web.Application(middlewares=[self._entrance.guarded], client_max_size=MOST_BODY)
         app.on_response_prepare.append(add_headers)
         for route in routes:
             app.router.add_route(route.method, route.path, route.serve)
+        for path in ("/api", "/api/"):
+            app.router.add_get(path, self._api_page)
         app.router.add_route("GET", "/{path:.*}", self._asset)
         return app
 
@@ -99,10 +100,10 @@ class Api:
     def _reads(self) -> Sequence[Route]:
         parts = self._parts
         status = "The status, as `rotator where --json` prints it", component("status")
-        station = "What does not change while the box runs: ranges, beam, horizon, sectors", scene_schema.BOX
-        past = "The last ten minutes, a row each second; null: there was none", scene_schema.PAST
-        path = "The pass that is flown or waited for, as directions", scene_schema.PATH
-        log = "The latest lines of the log, the latest first", scene_schema.LOG
+        station = "What does not change while the box runs: ranges, beam, horizon, sectors", BoxFacts
+        past = "The last ten minutes, a row each second; null: there was none", PastMinutes
+        path = "The pass that is flown or waited for, as directions", FlightPath
+        log = "The latest lines of the log, the latest first", LatestLines
         pictures = "A WebSocket: ten pictures of the box a second, STOP, and a button that is held", MESSAGES
         return (
             get("/api/status", self._read(lambda: as_object(parts.status())), status),
@@ -124,7 +125,7 @@ class Api:
         self._entrance.may_read(request)
         return web.json_response(self._box_for(self._entrance.who(request)))
 
-    def _box_for(self, who: Paired | None) -> dict[str, Any]:
+    def _box_for(self, who: Paired | None) -> BoxFacts:
         return box(self._parts.station, self._parts.status(), stranger=who is None)
 
     async def _log(self, request: web.Request) -> web.StreamResponse:
@@ -144,7 +145,7 @@ class Api:
         holding = None if who is None else Holding(self._live.pictures, self._jogging(request))
         await self._live.serve(
             socket,
-            hello(who) | {"box": self._box_for(who)},
+            {**hello(who), "box": self._box_for(who)},
             holding,
             lambda: self._is_still(who, request),
             stop=lambda: self._as(self._entrance.who(request)).do(Stop(latch=True)),
@@ -164,6 +165,22 @@ class Api:
             return self._parts.scene.with_names(self._as(who).do(jog)) if who else "this browser is paired no more"
 
         return order
+
+    async def _described(self) -> dict[str, Any]:
+        """Made when somebody asks for it first, in a thread of its own: it takes a while on a small Pi."""
+        if self._description is None:
+            made = asyncio.to_thread(openapi.description, self._routes)
+            self._description = asyncio.create_task(made, name="page: description")
+        return await asyncio.shield(self._description)
+
+    async def _describe(self, _request: web.Request) -> web.StreamResponse:
+        return web.json_response(await self._described())
+
+    async def _api_page(self, request: web.Request) -> web.StreamResponse:
+        if request.path not in self._assets:
+            page = assets.packed(assets.HTML, api_page(await self._described()).encode())
+            self._assets["/api"] = self._assets["/api/"] = page
+        return await self._asset(request)
 
     async def _asset(self, request: web.Request) -> web.StreamResponse:
         asset = self._assets.get(request.path)

@@ -113,12 +113,8 @@ def _kind(schema: Schema, indent: str = "") -> str:
             return json.dumps(value)
         case {"enum": [*words]}:
             return " or ".join(escape(json.dumps(word)) for word in words)
-        case {"oneOf": [*schemas]}:
+        case {"oneOf": [*schemas]} | {"anyOf": [*schemas]}:
             return " or ".join(_kind(each, indent) for each in schemas)
-        case {"type": [kind, "null"]}:
-            return f"{_kind({**schema, 'type': kind}, indent)} or null"
-        case {"type": [*kinds]}:
-            return " or ".join(_WORDS.get(kind, kind) for kind in kinds)
         case {"type": "array", "items": items, "minItems": length}:
             return f"[{', '.join([_kind(items, indent)] * length)}]"
         case {"type": "array", "items": items}:
@@ -136,7 +132,7 @@ def _kind(schema: Schema, indent: str = "") -> str:
 
 def _row(name: str, schema: Schema, indent: str, parent: Schema) -> str:
     meaning = schema.get("description", "")
-    if name not in parent["required"]:
+    if name not in parent.get("required", ()):
         meaning = f"may be missing{': ' if meaning else ''}{meaning}"
     return f'{indent}"{name}": {_kind(schema, indent)}{"  <i>" + _text(meaning) + "</i>" if meaning else ""}\n'
 

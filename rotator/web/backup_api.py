@@ -10,34 +10,34 @@ import difflib
 import logging
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from aiohttp import web
+from typing_extensions import TypedDict
 
 from rotator.backup.content import CHECKS, CONFIGURATION, MOST_BYTES, Backup, BackupError, check, pack
 from rotator.backup.restore import stage
 from rotator.config import toml_text
 from rotator.config.model import Config
 from rotator.protocols.methods import WrongValuesError
-from rotator.web.box_file import ANEW, BoxFile
+from rotator.web.box_file import Begun, BoxFile
 from rotator.web.entrance import Entrance, RefusedError, bytes_of, error
 from rotator.web.help_api import download
 from rotator.web.route import PAIRED, Route, get, post, refusals
-from rotator.web.schema import TEXT, ZIP, in_address, list_of, object_of, the
+from rotator.web.schema import ZIP, in_address, the
 
 log = logging.getLogger(__name__)
 
 MOST_ROWS = 400
 """Lines of the difference that the page shows."""
-_LOOK = object_of(
-    {
-        "made": the("the day and time", TEXT),
-        "program": the("the version that made it", TEXT),
-        "rotor": TEXT,
-        "files": list_of(TEXT),
-        "diff": the("the lines of the configuration that change", list_of(TEXT)),
-    }
-)
+
+
+class _Look(TypedDict):
+    made: Annotated[str, the("the day and time")]
+    program: Annotated[str, the("the version that made it")]
+    rotor: str
+    files: list[str]
+    diff: Annotated[list[str], the("the lines of the configuration that change")]
 
 
 class BackupApi:
@@ -58,8 +58,8 @@ class BackupApi:
         takes: dict[str, Any] = {"most_body": MOST_BYTES, "more": refusals(422)}
         return (
             get("/api/backup", self._save, save, access=PAIRED, more=refusals(409)),
-            post("/api/restore/check", self._look, look, ZIP, answer=_LOOK, **takes),
-            post("/api/restore", self._restore, restore, ZIP, answer=ANEW, query=stop, **takes),
+            post("/api/restore/check", self._look, look, ZIP, answer=_Look, **takes),
+            post("/api/restore", self._restore, restore, ZIP, answer=Begun, query=stop, **takes),
         )
 
     async def _save(self, request: web.Request) -> web.StreamResponse:
@@ -85,7 +85,7 @@ class BackupApi:
         stop = request.query.get("stop", "false")
         if stop not in ("true", "false"):
             raise WrongValuesError("?stop= must be true or false")
-        self._file.may_stop(stops=stop == "true")
+        self._file.may_stop({"stop": stop == "true"})
         try:
             await asyncio.to_thread(stage, path, data)
         except BackupError as reason:
@@ -96,7 +96,7 @@ class BackupApi:
         return web.json_response(self._file.begin_anew())
 
 
-def _shown(path: Path, data: bytes) -> dict[str, Any]:
+def _shown(path: Path, data: bytes) -> _Look:
     """The facts about a backup that a person checks before it is restored. Raises BackupError."""
     backup: Backup = check(data)
     try:

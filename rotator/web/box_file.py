@@ -9,11 +9,11 @@ from __future__ import annotations
 import asyncio
 import os
 import secrets
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
 from hw.ports import Axis
 from rotator.config.edit import NoChangeError
@@ -25,7 +25,7 @@ from rotator.runtime.anew import Anew
 from rotator.setup.plan import SetupError
 from rotator.setup.tree import write_new
 from rotator.web.entrance import RefusedError
-from rotator.web.schema import TEXT, YES, object_of, the
+from rotator.web.schema import Body, Ok, Sent, the
 
 OWN = Path("rotator.toml")
 """The file that a box without one gets, in the folder where it was started."""
@@ -36,9 +36,18 @@ NO_FILE = (
     "`rotator config --to rotator.toml` writes one, `rotator run --config rotator.toml` runs it"
 )
 MOVES = "the antenna moves, and the new start stops it: send stop = true"
-STOP = {"stop": the("true: though the antenna moves, which stops", YES)}
-"""A value in each request that starts the box again."""
-ANEW = object_of({"ok": {"const": True}, "run": the("of the box that ends: after the start it is another one", TEXT)})
+
+
+class MayStop(Sent, total=False):
+    stop: Annotated[bool, the("true: though the antenna moves, which stops")]
+
+
+class Begun(Ok):
+    run: Annotated[str, the("of the box that ends: after the start it is another one")]
+
+
+STOP = Body((MayStop, {"stop": True}))
+"""Of a request that starts the box again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,23 +89,15 @@ class BoxFile:
         with _refusing():
             await asyncio.to_thread(write, self.path, proposal)
 
-    def may_stop(self, *, stops: bool) -> None:
-        """`stops`: whether the person agreed that the antenna stops."""
-        if self.status().moving and not stops:
+    def may_stop(self, sent: MayStop) -> None:
+        """Whether the person agrees that the antenna stops."""
+        if self.status().moving and not sent.get("stop", False):
             raise RefusedError(MOVES)
 
-    def begin_anew(self, sets_up: Axis | None = None) -> dict[str, Any]:
+    def begin_anew(self, sets_up: Axis | None = None) -> Begun:
         """Start the box again as soon as this answer is sent. `sets_up`: an axis to calibrate then."""
         asyncio.get_running_loop().call_later(ANSWERED_S, lambda: self.anew.ask(self.status(), sets_up))
         return {"ok": True, "run": self.run}
-
-
-def stop_of(others: Mapping[str, object]) -> bool:
-    """The value `stop`; no other value may be left in `others`. Raises WrongValuesError."""
-    stop = others.get("stop", False)
-    if set(others) - {"stop"} or not isinstance(stop, bool):
-        raise WrongValuesError("stop must be true or false, and there is no other value here")
-    return stop
 
 
 @contextmanager

@@ -32,11 +32,12 @@ from rotator.store.paired import FILE_NAME, Paired, PairedFile
 from rotator.store.uploads import Uploads
 from rotator.tracking.thread import TrackingThread
 from rotator.web.doors import Doors
+from rotator.web.facts import Station
 from rotator.web.logs import LogLines
 from rotator.web.pairing import Pairings
 from rotator.web.passes import Passes, command
 from rotator.web.recorder import Recorder
-from rotator.web.scene import Scene, Station
+from rotator.web.scene import Scene
 from rotator.web.thread import PageThread
 from rotator.web.wires import WireLog
 

@@ -9,42 +9,60 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
 from aiohttp import web
+from typing_extensions import TypedDict
 
 from rotator.orbits.element_files import is_fault
 from rotator.orbits.elements import Elements, printable
 from rotator.protocols.methods import WrongValuesError
-from rotator.store.fetches import FetchesFile
+from rotator.store.fetches import Asked, FetchesFile
 from rotator.store.uploads import MOST_BYTES, NotKeptError, Uploads
 from rotator.tracking.file_reader import FileReader
 from rotator.tracking.known_sky import KnownSky
 from rotator.web.entrance import Entrance, bytes_of, error, values_of
 from rotator.web.route import Route, get, post
-from rotator.web.schema import ELEMENTS, NUMBER, TEXT, WHOLE, YES, body_of, in_address, list_of, object_of, or_null, the
+from rotator.web.schema import ELEMENTS, Body, Sent, in_address, the
 
-Fields = dict[str, Any]
 LONGEST_NAME = 200
-_FILE = object_of(
-    {
-        "name": TEXT,
-        "uploaded": the("it was sent, and can be removed", YES),
-        "satellites": WHOLE,
-        "newest_days": the("the age of its elements", or_null(NUMBER)),
-        "oldest_days": or_null(NUMBER),
-    }
-)
-_FETCH = object_of(
-    {
-        "address": TEXT,
-        "trouble": the("why the latest try failed; empty: it did not; null: not tried yet", or_null(TEXT)),
-        "good_s": the("seconds since it was good", or_null(WHOLE)),
-        "satellites": WHOLE,
-        "again_s": the("seconds until the next try", or_null(WHOLE)),
-    }
-)
-_ELEMENTS = object_of({"satellites": WHOLE, "files": list_of(_FILE), "faults": list_of(TEXT), "fetch": list_of(_FETCH)})
+
+
+class _Ages(TypedDict):
+    satellites: int
+    newest_days: Annotated[float | None, the("the age of its elements")]
+    oldest_days: float | None
+
+
+class _File(_Ages):
+    name: str
+    uploaded: Annotated[bool, the("it was sent, and can be removed")]
+
+
+class _Fetch(TypedDict):
+    address: str
+    trouble: Annotated[str | None, the("why the latest try failed; empty: it did not; null: not tried yet")]
+    good_s: Annotated[int | None, the("seconds since it was good")]
+    satellites: int
+    again_s: Annotated[int | None, the("seconds until the next try")]
+
+
+class _Elements(TypedDict):
+    satellites: int
+    files: list[_File]
+    faults: list[str]
+    fetch: list[_Fetch]
+
+
+class _Kept(TypedDict):
+    name: Annotated[str, the("as kept")]
+
+
+class _Forget(Sent):
+    name: str
+
+
+_FORGET = Body((_Forget, {"name": "mine.txt"}), hint="/api/elements lists them")
 
 
 class ElementFiles:
@@ -92,11 +110,7 @@ class ElementFiles:
 
         async def remove(request: web.Request) -> web.StreamResponse:
             entrance.must_be_paired(request)
-            match await values_of(request):
-                case {"name": str() as name, **others} if not others:
-                    pass
-                case _:
-                    raise WrongValuesError('send {"name": "the name in /api/elements"}')
+            name = _FORGET.read(await values_of(request))["name"]
             async with self._one:
                 try:
                     await asyncio.to_thread(self._uploads.remove, name)
@@ -105,16 +119,15 @@ class ElementFiles:
             self._changed()
             return web.json_response({"ok": True})
 
-        summary, kept = "Send a file of elements: taken whole or not at all", object_of({"name": the("as kept", TEXT)})
-        name, forget = (
+        summary, name = (
+            "Send a file of elements: taken whole or not at all",
             {"name": in_address("of the file", "mine.txt")},
-            body_of({"name": TEXT}, example={"name": "mine.txt"}),
         )
-        ages = "The files and addresses of elements, and how old these are", _ELEMENTS
+        ages = "The files and addresses of elements, and how old these are", _Elements
         return (
             get("/api/elements", listed, ages),
-            post("/api/elements", take, summary, ELEMENTS, answer=kept, most_body=MOST_BYTES, query=name),
-            post("/api/elements/remove", remove, "Forget a file that was sent", forget),
+            post("/api/elements", take, summary, ELEMENTS, answer=_Kept, most_body=MOST_BYTES, query=name),
+            post("/api/elements/remove", remove, "Forget a file that was sent", _FORGET),
         )
 
     async def close(self) -> None:
@@ -132,10 +145,10 @@ class ElementFiles:
         wrong = [str(each) for each in found if is_fault(each)]
         return wrong if found else ["it holds no elements"]
 
-    def listed(self) -> Fields:
+    def listed(self) -> _Elements:
         """Files and addresses, each with its satellites and the age of their elements in days."""
         now_s, mine = self._utc(), {self._uploads.folder / name for name in self._uploads.names()}
-        files = [
+        files: list[_File] = [
             {"name": path.name, "uploaded": path in mine, **_ages(sets, now_s)}
             for path, sets in self._sky.by_file.items()
         ]
@@ -144,20 +157,23 @@ class ElementFiles:
             "satellites": len(self._sky.elements or ()),
             "files": files,
             "faults": list(self._sky.faults),
-            "fetch": [
-                {
-                    "address": address,
-                    "trouble": (asked_last := asked.get(address)) and asked_last.trouble,
-                    "good_s": asked_last and asked_last.good_utc_s and round(now_s - asked_last.good_utc_s),
-                    "satellites": asked_last.sets if asked_last else 0,
-                    "again_s": round(asked_last.asked_utc_s + asked_last.wait_s - now_s) if asked_last else None,
-                }
-                for address in self._fetch
-            ],
+            "fetch": [_fetch(address, asked.get(address), now_s) for address in self._fetch],
         }
 
 
-def _ages(sets: Sequence[Elements], now_s: float) -> Fields:
+def _fetch(address: str, last: Asked | None, now_s: float) -> _Fetch:
+    if last is None:
+        return {"address": address, "trouble": None, "good_s": None, "satellites": 0, "again_s": None}
+    return {
+        "address": address,
+        "trouble": last.trouble,
+        "good_s": None if last.good_utc_s is None else round(now_s - last.good_utc_s),
+        "satellites": last.sets,
+        "again_s": round(last.asked_utc_s + last.wait_s - now_s),
+    }
+
+
+def _ages(sets: Sequence[Elements], now_s: float) -> _Ages:
     ages = [each.age_days(now_s) for each in sets]
     return {
         "satellites": len(sets),

@@ -16,6 +16,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 
 from aiohttp import web
+from typing_extensions import TypedDict
 
 from rotator.control.sky.mount import Mount
 from rotator.exchange.status import Status
@@ -25,29 +26,16 @@ from rotator.views.pass_svg import Flown, draw
 from rotator.web.entrance import Entrance
 from rotator.web.recorder import Record, Recorder
 from rotator.web.route import Route, get, refusals
-from rotator.web.schema import NUMBER, SVG, TEXT, WHOLE, in_address, list_of, object_of, or_null, the
+from rotator.web.schema import SVG, in_address
 
 log = logging.getLogger(__name__)
 
 LOOK_S = 0.1
-_FLOWN = object_of(
-    {
-        "flown": list_of(
-            object_of(
-                {
-                    "file": the("the name of its picture", TEXT),
-                    "name": TEXT,
-                    "begin_utc_s": the("seconds since 1970", NUMBER),
-                    "end_utc_s": NUMBER,
-                    "rms_deg": the("the error", NUMBER),
-                    "max_deg": the("the largest error", NUMBER),
-                    "relay_starts": or_null(WHOLE),
-                }
-            )
-        )
-    }
-)
 _STYLE = re.compile(r"<style>(.*?)</style>", re.DOTALL)
+
+
+class _Flown(TypedDict):
+    flown: list[FlownPass]
 
 
 class FlownPictures:
@@ -89,7 +77,7 @@ class FlownPictures:
             )
 
         return (
-            get("/api/flown", listed, ("The last passes that were flown, the latest first", _FLOWN)),
+            get("/api/flown", listed, ("The last passes that were flown, the latest first", _Flown)),
             get(
                 "/api/flown/picture",
                 picture,

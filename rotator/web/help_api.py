@@ -8,15 +8,16 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from aiohttp import web
+from typing_extensions import TypedDict
 
 from rotator.web.computed import Computed, of_the_program
 from rotator.web.entrance import Entrance, computed, error
 from rotator.web.redaction import Redaction
 from rotator.web.route import COMPUTING, PAIRED, Route, get, live, refusals
-from rotator.web.schema import NUMBER, TEXT, WHOLE, YES, ZIP, in_address, list_of, object_of, or_null, the
+from rotator.web.schema import ZIP, in_address, the
 from rotator.web.wire_watch import MESSAGES, MOST_WATCHERS, WireWatch
 from rotator.web.wires import WireLog
 
@@ -26,23 +27,21 @@ WIRES = "A WebSocket: the bytes of the links, in the lines of `rotator monitor`"
 DIAGNOSTICS = "A zip with what another person needs to see what is wrong, without secrets"
 WITH_FAULTS = (0, 1, 2)
 """The exit codes with which `rotator doctor` has printed its report."""
-_CHECK = object_of(
-    {
-        "name": TEXT,
-        "ok": the("null: left out", or_null(YES)),
-        "found": TEXT,
-        "advice": the("with ok true: a warning", or_null(TEXT)),
-    }
-)
-REPORT = object_of(
-    {
-        "version": the("of this form", WHOLE),
-        "rotator": the("the program's version", TEXT),
-        "ok": the("nothing is to be repaired", YES),
-        "checks": list_of(_CHECK),
-        "at_s": the("seconds since 1970", NUMBER),
-    }
-)
+
+
+class _Check(TypedDict):
+    name: str
+    ok: Annotated[bool | None, the("null: left out")]
+    found: str
+    advice: Annotated[str | None, the("with ok true: a warning")]
+
+
+class _Report(TypedDict):
+    version: Annotated[int, the("of this form")]
+    rotator: Annotated[str, the("the program's version")]
+    ok: Annotated[bool, the("nothing is to be repaired")]
+    checks: list[_Check]
+    at_s: Annotated[float, the("seconds since 1970")]
 
 
 def doctor(
@@ -71,7 +70,7 @@ class HelpApi:
     def routes(self) -> Sequence[Route]:
         after = {"after": in_address("the `upto` of the last message that you have", "480")}
         return (
-            get("/api/doctor", self._examine, ("The checks of `rotator doctor --json`", REPORT), more=COMPUTING),
+            get("/api/doctor", self._examine, ("The checks of `rotator doctor --json`", _Report), more=COMPUTING),
             get("/api/diagnostics", self._diagnose, (DIAGNOSTICS, ZIP), access=PAIRED),
             live("/api/wires", self._serve_wires, (WIRES, MESSAGES), access=PAIRED, query=after, more=refusals(409)),
         )

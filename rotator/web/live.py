@@ -11,7 +11,7 @@ import json
 import logging
 import re
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from aiohttp import WSMsgType, web
@@ -67,7 +67,7 @@ class Live:
     """`picture` makes the present picture, once for all browsers. `clock` gives seconds."""
 
     def __init__(
-        self, picture: Callable[[], dict[str, Any]], note: Callable[[], None], clock: Callable[[], float]
+        self, picture: Callable[[], Mapping[str, Any]], note: Callable[[], None], clock: Callable[[], float]
     ) -> None:
         self.pictures = Pictures()
         self._picture = picture

@@ -9,12 +9,26 @@ import logging
 import time
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from typing import Annotated, Literal
+
+from typing_extensions import TypedDict
 
 from rotator.runtime.log_limit import LogLimit
+from rotator.web.schema import the
 
 MOST_LINES, LONGEST_LINE = 500, 600
-_RANKS = {"D": "note", "I": "note", "W": "warning", "E": "error", "C": "error"}
+Rank = Literal["note", "warning", "error"]
+_RANKS: dict[str, Rank] = {"D": "note", "I": "note", "W": "warning", "E": "error", "C": "error"}
+
+
+class LogLine(TypedDict):
+    at_s: Annotated[float, the("seconds since 1970")]
+    rank: Rank
+    text: str
+
+
+class LatestLines(TypedDict):
+    lines: list[LogLine]
 
 
 class LogLines(logging.Handler):
@@ -22,7 +36,7 @@ class LogLines(logging.Handler):
 
     def __init__(self) -> None:
         super().__init__(logging.INFO)
-        self._lines: deque[tuple[float, str, str]] = deque(maxlen=MOST_LINES)
+        self._lines: deque[tuple[float, Rank, str]] = deque(maxlen=MOST_LINES)
 
     def keep(self) -> None:
         logging.getLogger().addHandler(self)
@@ -38,12 +52,11 @@ class LogLines(logging.Handler):
             # As in every handler: a line that cannot be written must not end a part of the box.
             self.handleError(record)
 
-    def kept(self) -> list[tuple[float, str, str]]:
+    def kept(self) -> list[tuple[float, Rank, str]]:
         """Seconds since 1970, rank and text of each line, the oldest first."""
         return list(self._lines)
 
-    def latest_first(self) -> list[dict[str, Any]]:
-        """The lines, the latest first. `at_s`: seconds since 1970."""
+    def latest_first(self) -> list[LogLine]:
         return [{"at_s": at_s, "rank": rank, "text": text} for at_s, rank, text in reversed(self.kept())]
 
 

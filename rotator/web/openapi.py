@@ -6,26 +6,16 @@ Knows the common part of all routes: rights, errors, status. Does not know how a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Any
+
+from typing_extensions import TypedDict
 
 from rotator import __version__
 from rotator.protocols.methods import Method
 from rotator.protocols.status_object import AXIS_FIELDS, FAULT_FIELDS, FIELDS, FLOWN_FIELDS, Field
 from rotator.web.route import FREE, MOST_BODY, PAIRED, REFUSED, Handler, Route, post, refusals
-from rotator.web.scene_schema import PICTURE
-from rotator.web.schema import (
-    NUMBER,
-    TEXT,
-    YES,
-    Schema,
-    body_of,
-    component,
-    in_address,
-    list_of,
-    object_of,
-    or_null,
-    the,
-)
+from rotator.web.scene import Picture
+from rotator.web.schema import Body, Schema, component, in_address, schema_of, the
 
 ABOUT = (
     "What the page does, for programs. An order needs a token: `rotator pair --token NAME` at the box prints one; send "
@@ -33,14 +23,15 @@ ABOUT = (
     '`[page] reading = "paired"`. A value that is not described is refused with a sentence. The console and MQTT have '
     "the same orders, with the same names and values."
 )
-_KINDS: dict[str, Schema] = {
-    "text": TEXT,
-    "text or null": or_null(TEXT),
-    "number": NUMBER,
-    "number or null": or_null(NUMBER),
-    "boolean": YES,
-    "list of text": list_of(TEXT),
+_KINDS: dict[str, Any] = {
+    "text": str,
+    "text or null": str | None,
+    "number": float,
+    "number or null": float | None,
+    "boolean": bool,
+    "list of text": list[str],
 }
+ITSELF: Schema = {"type": "object"}
 SINCE = {
     "If-Match": in_address(
         "in quotes, `stops` of the picture that you saw: a stop that has come since then counts. May be missing", '"3"'
@@ -49,11 +40,16 @@ SINCE = {
 _OBJECTS = {"azimuth": "axis", "elevation": "axis", "tracks": "tracks", "fault": "fault"}
 
 
+class _Error(TypedDict):
+    error: Annotated[str, the("why, in a sentence")]
+
+
 def description(routes: Sequence[Route]) -> dict[str, Any]:
+    """Slow: it makes the schemas of all types."""
     paths: dict[str, dict[str, Any]] = {}
     for route in routes:
         paths.setdefault(route.path, {})[route.method.lower()] = route.described
-    return {
+    whole = {
         "openapi": "3.1.0",
         "info": {"title": "rotator", "version": __version__, "description": ABOUT},
         "externalDocs": {"description": "The same for a person to read", "url": "/api/"},
@@ -65,21 +61,38 @@ def description(routes: Sequence[Route]) -> dict[str, Any]:
             },
             "responses": REFUSED,
             "schemas": {
-                "error": object_of({"error": the("why, in a sentence", TEXT)}),
+                "error": _Error,
                 "status": _fields(FIELDS),
                 "axis": _fields(AXIS_FIELDS),
                 "fault": _fields(FAULT_FIELDS),
                 "tracks": _fields(FLOWN_FIELDS),
-                "picture": PICTURE,
+                "picture": Picture,
             },
         },
     }
+    made: dict[str, Any] = _made(whole)
+    return made
+
+
+def _made(part: Any) -> Any:
+    """With the schema of each type in its place."""
+    match part:
+        case dict():
+            return {key: _made(each) for key, each in part.items()}
+        case list():
+            return [_made(each) for each in part]
+        case str() | int() | float() | None:
+            return part
+        case Body():
+            return part.schema()
+    return schema_of(part)
 
 
 def order(method: Method, serve: Handler) -> Route:
     """The route of an order."""
+    example = {value.name: value.example for value in method.values}
     values = {value.name: value.schema() for value in method.values}
-    body = body_of(values, example={value.name: value.example for value in method.values}) if values else None
+    body = {**_object(values), "additionalProperties": False, "examples": [example]} if values else None
     access, since = FREE if method.free else PAIRED, method.name == "resume"
     headers, more = (SINCE, refusals(412)) if since else ({}, {})
     takes: dict[str, Any] = {"most_body": 0 if method.free else MOST_BODY, "headers": headers, "more": more}
@@ -89,11 +102,17 @@ def order(method: Method, serve: Handler) -> Route:
 
 
 def _fields(fields: Sequence[Field[Any]]) -> Schema:
-    return object_of({field.name: the(field.meaning, _field(field)) for field in fields})
+    return _object({field.name: _field(field) for field in fields})
 
 
-def _field(field: Field[Any]) -> Schema:
+def _object(needed: Schema) -> Schema:
+    return {"type": "object", "properties": needed, "required": list(needed)}
+
+
+def _field(field: Field[Any]) -> Any:
     if field.name not in _OBJECTS:
-        return _KINDS[field.kind]
+        return Annotated[_KINDS[field.kind], the(field.meaning)]
     named = component(_OBJECTS[field.name])
-    return or_null(named) if field.kind.endswith("or null") else named
+    if field.kind.endswith("or null"):
+        named = {"anyOf": [named, {"type": "null"}]}
+    return {**named, "description": field.meaning}

@@ -7,35 +7,50 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Annotated
 
 from aiohttp import web
+from pydantic import Field
+from typing_extensions import TypedDict
 
-from rotator.protocols.methods import WrongValuesError
 from rotator.store.paired import LONGEST_NAME, Paired
 from rotator.web.connections import machine
 from rotator.web.entrance import Entrance, error, set_cookie, source_of, values_of
 from rotator.web.pairing import Pairings
 from rotator.web.route import FREE, PAIRED, Route, get, post
-from rotator.web.schema import NUMBER, TEXT, WHOLE, YES, body_of, list_of, object_of, or_null, the
+from rotator.web.schema import Body, Sent, the
 
-HELLO = object_of(
-    {
-        "paired": the("may give orders", YES),
-        "name": or_null(TEXT),
-        "number": or_null(WHOLE),
-        "source": the("as the log and the status name it", TEXT),
-    }
-)
-_PAIRED = object_of(
-    {
-        "paired": list_of(
-            object_of(
-                {"number": WHOLE, "name": TEXT, "since_s": the("seconds ago", NUMBER), "seen_s": NUMBER},
-            )
-        )
-    }
-)
+
+class Hello(TypedDict):
+    paired: Annotated[bool, the("may give orders")]
+    name: str | None
+    number: int | None
+    source: Annotated[str, the("as the log and the status name it")]
+
+
+class _Pairing(TypedDict):
+    number: int
+    name: str
+    since_s: Annotated[float, the("seconds ago")]
+    seen_s: float
+
+
+class _PairedList(TypedDict):
+    paired: list[_Pairing]
+
+
+class _Enter(Sent):
+    code: Annotated[str, Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": "^[0-9]{6}$"})]
+    name: Annotated[str, Field(json_schema_extra={"maxLength": LONGEST_NAME})]
+    """A longer one is cut."""
+
+
+class _Revoke(Sent):
+    number: Annotated[int, Field(ge=1)]
+
+
+_ENTER = Body((_Enter, {"code": "123456", "name": "Anna's phone"}))
+_REVOKE = Body((_Revoke, {"number": 99}), hint="/api/paired lists them")
 
 
 class PairingApi:
@@ -47,18 +62,14 @@ class PairingApi:
         self._utc = utc
 
     def routes(self) -> Sequence[Route]:
-        me = "Who asks: whether this browser or token may give orders", HELLO
-        code = {"type": "string", "pattern": "^[0-9]{6}$"}
-        name = {"type": "string", "maxLength": LONGEST_NAME}
-        enter = body_of({"code": code, "name": name}, example={"code": "123456", "name": "Anna's phone"})
-        number = body_of({"number": {"type": "integer", "minimum": 1}}, example={"number": 99})
+        me = "Who asks: whether this browser or token may give orders", Hello
         show, pair = "Show a code of six digits on the box's display", "Pair this browser by the code: a cookie"
         return (
             get("/api/me", self._me, me, access=FREE),
-            get("/api/paired", self._list, ("All that are paired", _PAIRED), access=PAIRED),
+            get("/api/paired", self._list, ("All that are paired", _PairedList), access=PAIRED),
             post("/api/pair/begin", self._begin, show, access=FREE),
-            post("/api/pair", self._pair, pair, enter, answer=HELLO, access=FREE),
-            post("/api/revoke", self._revoke, "Pair this one no more", number),
+            post("/api/pair", self._pair, pair, _ENTER, answer=Hello, access=FREE),
+            post("/api/revoke", self._revoke, "Pair this one no more", _REVOKE),
         )
 
     async def _me(self, request: web.Request) -> web.StreamResponse:
@@ -69,12 +80,9 @@ class PairingApi:
         return web.json_response({"ok": True})
 
     async def _pair(self, request: web.Request) -> web.StreamResponse:
-        match await values_of(request):
-            case {"code": str() as code, "name": str() as name, **others} if len(code) <= LONGEST_NAME and not others:
-                typed, peer = code.strip().replace(" ", ""), machine(request.remote or "")
-                token, who = await asyncio.to_thread(self._pairings.enter, typed, name, peer)
-            case _:
-                raise WrongValuesError('send {"code": "123456", "name": "the name of this browser"}')
+        sent = _ENTER.read(await values_of(request))
+        typed, peer = sent["code"].strip().replace(" ", ""), machine(request.remote or "")
+        token, who = await asyncio.to_thread(self._pairings.enter, typed, sent["name"], peer)
         answer = web.json_response(hello(who))
         set_cookie(answer, token)
         return answer
@@ -82,7 +90,7 @@ class PairingApi:
     async def _list(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
         now_s = self._utc()
-        paired = [
+        paired: list[_Pairing] = [
             {
                 "number": one.number,
                 "name": one.name,
@@ -95,15 +103,12 @@ class PairingApi:
 
     async def _revoke(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
-        match await values_of(request):
-            case {"number": int() as number, **others} if not isinstance(number, bool) and not others:
-                refused = await asyncio.to_thread(self._pairings.revoke, number)
-            case _:
-                raise WrongValuesError('send {"number": 1}: /api/paired lists them')
+        sent = _REVOKE.read(await values_of(request))
+        refused = await asyncio.to_thread(self._pairings.revoke, sent["number"])
         return error(409, refused) if refused else web.json_response({"ok": True})
 
 
-def hello(who: Paired | None) -> dict[str, Any]:
+def hello(who: Paired | None) -> Hello:
     """The answer to a browser about its own pairing."""
     return {
         "paired": who is not None,

@@ -7,42 +7,48 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from typing_extensions import TypedDict
 
 from rotator.config.station import NO_PLACE
 from rotator.web.computed import Computed, of_the_program
-from rotator.web.schema import NUMBER, TEXT, YES, object_of, or_null, the
+from rotator.web.schema import the
 
 KEPT_S = 1200.0
 MOST = 300
 HOURS = 24
-_MOMENT = the("with its time zone; null: not within this day", or_null(TEXT))
-_PLANNED = object_of(
+_Moment = Annotated[str | None, the("with its time zone; null: not within this day")]
+_Planned = TypedDict(
+    "_Planned",
     {
-        "set_off": the("when the antenna goes there", or_null(TEXT)),
-        "from": or_null(TEXT),
-        "until": or_null(TEXT),
-        "wait_az_deg": or_null(NUMBER),
-        "wait_el_deg": or_null(NUMBER),
-        "over_the_top": or_null(YES),
-        "lost_s": the("of the pass, to turns of the antenna", or_null(NUMBER)),
-        "flown": YES,
-        "reason": the("why it is left out, or not flown whole", or_null(TEXT)),
-    }
+        "set_off": Annotated[str | None, the("when the antenna goes there")],
+        "from": str | None,
+        "until": str | None,
+        "wait_az_deg": float | None,
+        "wait_el_deg": float | None,
+        "over_the_top": bool | None,
+        "lost_s": Annotated[float | None, the("of the pass, to turns of the antenna")],
+        "flown": bool,
+        "reason": Annotated[str | None, the("why it is left out, or not flown whole")],
+    },
 )
-PASS = object_of(
-    {
-        "name": TEXT,
-        "aos": _MOMENT,
-        "los": _MOMENT,
-        "tca": the("when it is highest", TEXT),
-        "aos_az_deg": or_null(NUMBER),
-        "los_az_deg": or_null(NUMBER),
-        "max_el_deg": NUMBER,
-        "expected_error_deg": NUMBER,
-        "plan": the("null: not in the plan", or_null(_PLANNED)),
-    }
-)
+
+
+class Pass(TypedDict):
+    name: str
+    aos: _Moment
+    los: _Moment
+    tca: Annotated[str, the("when it is highest")]
+    aos_az_deg: float | None
+    los_az_deg: float | None
+    max_el_deg: float
+    expected_error_deg: float
+    plan: Annotated[_Planned | None, the("null: not in the plan")]
+
+
+class ManyPasses(TypedDict):
+    passes: list[Pass]
 
 
 def command(path: Path) -> tuple[str, ...]:

@@ -8,14 +8,24 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from math import isnan, nan
-from typing import Any
+from typing import Annotated
+
+from typing_extensions import TypedDict
 
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.exchange.status import AxisStatus, Status
 from rotator.views.sky_plot import aimed_at, off_deg
+from rotator.web.schema import the
 
 KEPT_S, EVERY_S = 600, 1.0
 """Seconds that the strip chart and the trail go back, and seconds between two points."""
+
+
+class PastMinutes(TypedDict):
+    every_s: float
+    rows: Annotated[
+        list[list[float | None]], the("seconds from now, azimuth, its target, elevation, its target, error")
+    ]
 
 
 class Past:
@@ -33,8 +43,7 @@ class Past:
             row += [_number(axis.points_deg), _number(aim_deg)]
         self._rows.append((*row, _number(off_deg(status))))
 
-    def rows(self) -> dict[str, Any]:
-        """Rows: seconds ago, azimuth, its target, elevation, its target, error; null: no value."""
+    def rows(self) -> PastMinutes:
         now_s = self._status().at_s
         return {
             "every_s": EVERY_S,

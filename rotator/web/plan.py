@@ -9,9 +9,11 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
-from typing import Any
+from functools import partial
+from typing import Annotated, Any
 
 from aiohttp import web
+from typing_extensions import TypedDict
 
 from rotator.config.sky import FollowTable
 from rotator.exchange.orders import Aim
@@ -22,9 +24,9 @@ from rotator.store.priorities import Priorities
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.ranking import ranked
 from rotator.web.entrance import Entrance, computed, error, values_of
-from rotator.web.passes import PASS, Passes
+from rotator.web.passes import ManyPasses, Pass, Passes
 from rotator.web.route import COMPUTING, Route, get, post
-from rotator.web.schema import NUMBER, TEXT, body_of, list_of, object_of, the
+from rotator.web.schema import Body, Pair, Sent, the
 
 Fields = dict[str, Any]
 LONGEST_ORDER = 16_384
@@ -32,25 +34,34 @@ LEAST_DEG = 10.0
 """Degrees: without a plan the next pass is the first that rises this high."""
 POINTS = 40
 """Points of the path of the next pass."""
-_POINTS = the("azimuth and elevation", list_of(list_of(NUMBER, 2)))
-_NEXT = the(
-    "Empty: there is none",
-    {**object_of({}, PASS["properties"] | {"points": _POINTS}), "dependentRequired": {"name": PASS["required"]}},
-)
-_FOLLOWED = object_of(
-    {
-        "name": the("as in the file", TEXT),
-        "target": the("its own name", TEXT),
-        "priority": NUMBER,
-        "written": the("the priority of the file", NUMBER),
-        "least_deg": the("lower passes are not flown", NUMBER),
-        "fault": the("why it is not known; empty: it is", TEXT),
-    }
-)
-_ORDER = body_of(
-    {"order": {"type": ["array", "null"], "items": TEXT, "description": "each name once; null: as the file says"}},
-    example={"order": None},
-)
+
+
+class _Next(Pass):
+    points: Annotated[list[Pair], the("azimuth and elevation")]
+
+
+class _None(TypedDict):
+    """There is none."""
+
+
+class _Followed(TypedDict):
+    name: Annotated[str, the("as in the file")]
+    target: Annotated[str, the("its own name")]
+    priority: float
+    written: Annotated[float, the("the priority of the file")]
+    least_deg: Annotated[float, the("lower passes are not flown")]
+    fault: Annotated[str, the("why it is not known; empty: it is")]
+
+
+class _FollowedList(TypedDict):
+    followed: list[_Followed]
+
+
+class _Order(Sent):
+    order: Annotated[list[str] | None, the("each name once; null: as the file says")]
+
+
+_ORDER = Body((_Order, {"order": None}), hint="the order of the file; or each name of /api/followed once")
 
 
 class Plan:
@@ -90,34 +101,29 @@ class Plan:
 
         async def order(request: web.Request) -> web.StreamResponse:
             entrance.must_be_paired(request)
-            match await values_of(request, LONGEST_ORDER):
-                case {"order": list() as names, **others} if not others:
-                    reason = await asyncio.to_thread(self.reorder, names)
-                case {"order": None, **others} if not others:
-                    reason = await asyncio.to_thread(self.as_written)
-                case _:
-                    raise WrongValuesError('send {"order": ["ISS", "SO-50"]}, or {"order": null} for that of the file')
+            names = _ORDER.read(await values_of(request, LONGEST_ORDER))["order"]
+            change = self.as_written if names is None else partial(self.reorder, names)
+            reason = await asyncio.to_thread(change)
             self._changed()
             return error(409, reason) if reason else web.json_response({"ok": True})
 
-        day = "The passes of the next day, as `rotator sky passes --json`", object_of({"passes": list_of(PASS)})
-        all_of_it = object_of({"followed": list_of(_FOLLOWED)})
+        day = "The passes of the next day, as `rotator sky passes --json`", ManyPasses
         anew = "What is followed in a new order: what stands first counts most"
         return (
             get("/api/passes", passes, day, more=COMPUTING),
-            get("/api/next", upcoming, ("The next pass, with its path", _NEXT), more=COMPUTING),
-            get("/api/followed", followed, ("What the file follows, the highest priority first", all_of_it)),
+            get("/api/next", upcoming, ("The next pass, with its path", _Next | _None), more=COMPUTING),
+            get("/api/followed", followed, ("What the file follows, the highest priority first", _FollowedList)),
             post("/api/followed", order, anew, _ORDER, most_body=LONGEST_ORDER),
         )
 
     # --- what is followed
 
-    def followed(self) -> list[Fields]:
+    def followed(self) -> list[_Followed]:
         """The targets of the configuration, the highest priority first."""
         rows = [self._row(each) for each in self._follow]
         return sorted(rows, key=lambda row: -row["priority"])
 
-    def _row(self, each: FollowTable) -> Fields:
+    def _row(self, each: FollowTable) -> _Followed:
         target, fault = "", ""
         try:
             wanted = self._sky.find(each.name)
@@ -133,14 +139,13 @@ class Plan:
             "fault": fault,
         }
 
-    def reorder(self, names: Sequence[object]) -> str:
+    def reorder(self, names: Sequence[str]) -> str:
         """Set the priorities by this order, the most important first. Returns why not; empty: done."""
         written = {each.name: each.priority for each in self._follow}
-        order = [name for name in names if isinstance(name, str)]
-        if len(order) != len(names) or sorted(order) != sorted(written):
+        if sorted(names) != sorted(written):
             raise WrongValuesError("order must name each followed target once: GET /api/followed lists them")
         inforce = [self._priorities.of(name, priority) for name, priority in written.items()]
-        return self._put(dict(zip(order, ranked(inforce), strict=True)), written)
+        return self._put(dict(zip(names, ranked(inforce), strict=True)), written)
 
     def as_written(self) -> str:
         """Restore the priorities of the configuration."""

@@ -1,17 +1,19 @@
 """One route of the API: its path, its handler, the limit of its body, and its description as OpenAPI 3.1.
 
-Each group of routes has a file of its own, and describes itself with the functions here and in `schema`. Does not know
-any single route.
+Each group of routes has a file of its own, and describes itself with the functions here and the types of `schema`. A
+type stands in a description where its schema will be: `openapi` makes them. Does not know any single route.
 """
 
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
+from typing import Any, Literal
 
 from aiohttp import web
+from typing_extensions import TypedDict
 
-from rotator.web.schema import Schema, component, object_of
+from rotator.web.schema import Body, Ok, Schema, component
 
 MOST_BODY = 4096
 JSON = "application/json"
@@ -21,7 +23,6 @@ PAIRED: Schema = {"security": [{"token": []}, {"browser": []}]}
 READING: Schema = {"security": [{}, {"token": []}, {"browser": []}]}
 """All may read, unless the configuration has `[page] reading = "paired"`."""
 FREE: Schema = {"security": []}
-OK: Schema = object_of({"ok": {"const": True}})
 
 REFUSALS: Mapping[int, str] = {
     400: "the request has not this form; the sentence says what to send",
@@ -50,13 +51,13 @@ class Route:
 def get(
     path: str,
     serve: Handler,
-    answer: tuple[str, Schema],
+    answer: tuple[str, Any],
     *,
     access: Schema = READING,
     query: Schema | None = None,
     more: Schema | None = None,
 ) -> Route:
-    """A query. `answer`: its meaning and its schema. `query`: values in the address. `more`: further answers."""
+    """A query. `answer`: its meaning and its type. `query`: values in the address. `more`: further answers."""
     answers = {"200": answered(*answer), **(more or {})}
     summary, _ = answer
     return Route("GET", path, serve, _described(summary, access, answers, query))
@@ -73,21 +74,21 @@ def post(
     path: str,
     serve: Handler,
     summary: str,
-    body: Schema | None = None,
+    body: Body[Any] | Schema | None = None,
     *,
-    answer: Schema = OK,
+    answer: Any = Ok,
     access: Schema = PAIRED,
     most_body: int = MOST_BODY,
     query: Schema | None = None,
     headers: Schema | None = None,
     more: Schema | None = None,
 ) -> Route:
-    """A request that changes something. `body`, `answer`: their schemas. `query` and `more`: as in `get`."""
+    """A request that changes something. `answer`: its type. `query` and `more`: as in `get`."""
     answers = {"200": answered("done", answer), **refusals(400, 409, 413), **(more or {})}
     described = _described(summary, access, answers, query, headers)
     if body is not None:
         described["requestBody"] = {
-            "required": "required" not in body or bool(body["required"]),
+            "required": not isinstance(body, Body) or body.needed,
             "content": _content(body),
         }
     return Route("POST", path, serve, described, most_body)
@@ -108,20 +109,25 @@ def _described(
     return described
 
 
-def answered(summary: str, schema: Schema) -> Schema:
-    return {"description": summary, "content": _content(schema)}
+def answered(summary: str, kind: Any) -> Schema:
+    return {"description": summary, "content": _content(kind)}
 
 
-def _content(schema: Schema) -> Schema:
-    return {schema.get("contentMediaType", JSON): {"schema": schema}}
+def _content(kind: Any) -> Schema:
+    """`kind`: a type, a `Body`, or the schema of a file or a component."""
+    return {kind.get("contentMediaType", JSON) if isinstance(kind, dict) else JSON: {"schema": kind}}
 
 
 def refusals(*numbers: int) -> Schema:
     return {str(number): {"$ref": f"#/components/responses/{number}"} for number in numbers}
 
 
+class _Computing(TypedDict):
+    computing: Literal[True]
+
+
 COMPUTING: Schema = {
-    "202": answered("it is computed: ask again", object_of({"computing": {"const": True}})),
+    "202": answered("it is computed: ask again", _Computing),
     **refusals(409),
 }
 """Further answers of a slow request."""

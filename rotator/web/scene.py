@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from typing import Annotated, Any, Literal
 
-from hw.ports import Axis, Direction
-from rotator import __version__
-from rotator.control.sky.mount import Mount
+from typing_extensions import TypedDict
+
+from hw.ports import Direction
 from rotator.exchange.flight_order import Fly
 from rotator.exchange.motor import Trust
 from rotator.exchange.orders import Stop
@@ -26,55 +26,74 @@ from rotator.protocols.status_object import as_object
 from rotator.views import words
 from rotator.views.sky_plot import Way, aimed_at, off_deg, pointing
 from rotator.web.past import Past, target_deg
+from rotator.web.schema import Pair, one_of, the
 
 LAST_BYTES = 24
 MOST_POINTS = 180
 ITSELF = "the box itself"
 _PAGE = re.compile(r"\bpage(?:#(\d+))?\b")
-_LAMPS = {Axis.AZIMUTH: ("cw", "ccw"), Axis.ELEVATION: ("up", "down")}
+Lamp = Literal["on", "off", "doubted"]
+"""A relay. `doubted`: switched off, but perhaps still closed."""
+Mood = Literal["good", "plain", "warns", "alarms"]
+_MOODS: dict[str, Mood] = {words.GOOD: "good", words.PLAIN: "plain", words.WARNS: "warns", words.ALARMS: "alarms"}
 
 
 @dataclass(frozen=True, slots=True)
-class Station:
-    """Facts that do not change while the box runs. `tolerances_deg`: of azimuth and elevation."""
+class FlightPath:
+    """The directions of a pass."""
 
-    mount: Mount
-    beam_deg: float
-    tolerances_deg: tuple[float, float]
-    where: tuple[float, float] | None
-    """Latitude and longitude; None: not known."""
-
-
-def box(station: Station, status: Status, *, stranger: bool) -> dict[str, Any]:
-    """The range, the horizon, the sectors: for the browser's one request. A stranger learns the place to a degree."""
-    mount = station.mount
-    exact = station.where
-    return {
-        "version": __version__,
-        "simulated": status.simulated,
-        "beam_deg": station.beam_deg,
-        "where": [round(deg) for deg in exact] if exact and stranger else exact,
-        "azimuth": {"min_deg": mount.azimuth.min_deg, "max_deg": mount.azimuth.max_deg},
-        "elevation": {"min_deg": mount.elevation.min_deg, "max_deg": mount.elevation.max_deg},
-        "tolerance_deg": station.tolerances_deg,
-        "park": [mount.park_azimuth_deg, mount.park_elevation_deg],
-        "horizon": list(mount.horizon),
-        "sectors": [
-            {
-                "name": sector.name,
-                "azimuth": [sector.azimuth.min_deg, sector.azimuth.max_deg],
-                "elevation": [sector.elevation.min_deg, sector.elevation.max_deg],
-            }
-            for sector in mount.sectors
-        ],
-    }
-
-
-@dataclass(frozen=True, slots=True)
-class _Path:
-    key: str
+    key: Annotated[str, the("no other flight has it")]
     name: str
-    points: list[Way]
+    points: Annotated[Sequence[Pair], the("azimuth and elevation")]
+
+
+class _Lamps(TypedDict):
+    cw: Lamp
+    ccw: Lamp
+    up: Lamp
+    down: Lamp
+
+
+class _Link(TypedDict):
+    name: str
+    protocol: str
+    where: str
+    state: str
+    out: Annotated[bool, the("no program can use it now")]
+    heard: Annotated[str, the("the last line that a program sent")]
+    count: Annotated[int, the("bytes that came so far")]
+
+
+class Picture(TypedDict):
+    """All values that may change at any time."""
+
+    status: Annotated[Mapping[str, object], one_of("status")]
+    headline: str
+    mood: Mood
+    passes: Annotated[bool, the("every fault ends by itself")]
+    antenna: Annotated[Pair | None, the("true azimuth and elevation")]
+    target: Annotated[Pair | None, the("true azimuth and elevation")]
+    azimuth_deg: float | None
+    elevation_deg: float | None
+    azimuth_target_deg: float | None
+    elevation_target_deg: float | None
+    readings: Annotated[list[float | None], the("of both sensors, as they come")]
+    off_deg: Annotated[float | None, the("from the target")]
+    starts: Annotated[int | None, the("of the relays")]
+    tracking: Annotated[str, the("off, planning, tracking; ended:, refused: or rests: and why")]
+    rise_or_set: str
+    path: Annotated[str, the("empty, or the key of the flight that /api/path has")]
+    stops: Annotated[int, the("how often a person has stopped it since the program began")]
+    utc_s: Annotated[float, the("the box's clock, in seconds since 1970")]
+    lamps: Annotated[_Lamps, the("of the relays")]
+    lcd: Annotated[list[str], the("the rows of the display")]
+    mover: Annotated[str, the("whose orders move the antenna, by name")]
+    holder: str
+    stopper: str
+    mode_by: str
+    mode_switch: Annotated[bool, the("a front panel has one, and it comes first")]
+    notes: list[str]
+    links: list[_Link]
 
 
 class Scene:
@@ -101,7 +120,7 @@ class Scene:
         self._tracks = tracks
         self._utc = utc
         self.past = Past(status)
-        self._path = _Path("", "", [])
+        self._path = FlightPath("", "", [])
         self._counting = threading.Lock()
         """Orders come from several threads, some at the same moment."""
         self._flights = 0
@@ -118,14 +137,13 @@ class Scene:
             points = [(round(az, 1), round(el, 1)) for _, az, el in order.path[::step]]
             with self._counting:
                 self._flights += 1
-                self._path = _Path(f"{self._flights} {order.name}", order.name, points)
+                self._path = FlightPath(f"{self._flights} {order.name}", order.name, points)
 
     def path(self) -> dict[str, Any]:
         """The directions of the pass that is flown, or that the antenna waits for. `key`: unique for each flight."""
         return asdict(self._path)
 
-    def now(self) -> dict[str, Any]:
-        """All values that may change at any time."""
+    def now(self) -> Picture:
         status = self._status()
         named_status = self._with_names(status)
         headline, style = words.headline(named_status)
@@ -149,7 +167,12 @@ class Scene:
             "path": self._path.key if flown and flown.name == self._path.name else "",
             "stops": self.stops,
             "utc_s": round(self._utc(), 2),
-            "lamps": {name: lamp for axis in Axis for name, lamp in _lamps(axis, status.axis(axis)).items()},
+            "lamps": {
+                "cw": _lamp(status.azimuth, Direction.PLUS),
+                "ccw": _lamp(status.azimuth, Direction.MINUS),
+                "up": _lamp(status.elevation, Direction.PLUS),
+                "down": _lamp(status.elevation, Direction.MINUS),
+            },
             "lcd": list(self._lcd()),
             "mover": named_status.controlled_by,
             "holder": named_status.held_by,
@@ -184,30 +207,19 @@ class Scene:
         return (self._named(int(number)) if number else "") or "the page"
 
 
-_MOODS = {words.GOOD: "good", words.PLAIN: "plain", words.WARNS: "warns", words.ALARMS: "alarms"}
-
-
 def _starts(status: Status) -> int | None:
     starts = [axis.starts for axis in (status.azimuth, status.elevation) if axis.starts is not None]
     return sum(starts) if starts else None
 
 
-def _lamps(axis: Axis, status: AxisStatus) -> dict[str, str]:
-    """The relays of an axis: `on`, `off`, or `doubted`: switched off, but perhaps still closed."""
-    plus, minus = _LAMPS[axis]
-    lamps = {plus: "off", minus: "off"}
-    for name, direction, trust in (
-        (plus, Direction.PLUS, status.trusts[0]),
-        (minus, Direction.MINUS, status.trusts[1]),
-    ):
-        if status.drive is direction:
-            lamps[name] = "on"
-        elif trust in (Trust.DOUBTED, Trust.WELDED):
-            lamps[name] = "doubted"
-    return lamps
+def _lamp(axis: AxisStatus, direction: Direction) -> Lamp:
+    if axis.drive is direction:
+        return "on"
+    trust = axis.trusts[0 if direction is Direction.PLUS else 1]
+    return "doubted" if trust in (Trust.DOUBTED, Trust.WELDED) else "off"
 
 
-def _link(wire: Wire) -> dict[str, Any]:
+def _link(wire: Wire) -> _Link:
     return {
         "name": wire.name,
         "protocol": wire.protocol,

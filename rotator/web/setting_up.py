@@ -10,53 +10,105 @@ import asyncio
 import logging
 import re
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Literal, NotRequired
 
 from aiohttp import web
+from pydantic import Field
+from typing_extensions import TypedDict
 
 from hw.ports import Axis, HardwareError
 from rotator.calibrating.on_page import PageCalibration
 from rotator.calibrating.rig import axis_guide
 from rotator.config.model import Config
-from rotator.protocols.methods import WrongValuesError
 from rotator.protocols.reference.programs import PROGRAMS
 from rotator.setup.answered import Asked, as_they_stand, asked
 from rotator.setup.machine import this_machine
-from rotator.web.box_file import ANEW, STOP, BoxFile, stop_of
+from rotator.web.box_file import Begun, BoxFile, MayStop
 from rotator.web.entrance import Entrance, RefusedError, values_of
 from rotator.web.route import PAIRED, Route, get, post, refusals
-from rotator.web.schema import TEXT, WHOLE, YES, body_of, choice, list_of, object_of, or_null, the
-from rotator.web.settings import ANSWERS, texts_of
+from rotator.web.schema import Body, Sent, the
 
 log = logging.getLogger(__name__)
 
-_QUESTION = object_of(
-    {
-        "name": TEXT,
-        "text": TEXT,
-        "help": TEXT,
-        "choices": list_of(object_of({"answer": TEXT, "words": TEXT})),
-        "open": the("other answers than the choices may be typed", YES),
-        "answer": the("as given, else the offered one", TEXT),
-        "mistake": the("why it is no answer; empty: it is", TEXT),
-    }
-)
-_WIRING = object_of(
-    {
-        "kind": TEXT,
-        "pins": list_of(object_of({"gpio": WHOLE, "key": TEXT})),
-        "chips": list_of(object_of({"bus": WHOLE, "address": WHOLE, "name": TEXT})),
-        "active": the("the level that closes a relay", or_null(TEXT)),
-    }
-)
-_PROGRAM = object_of({"name": TEXT, "protocols": list_of(TEXT), "where": TEXT, "settings": TEXT})
-_GUIDE = object_of(
-    {"axis": the("null: nothing is calibrated; the lines are of the last one", or_null(TEXT)), "lines": list_of(TEXT)},
-    {"prompt": TEXT, "state": TEXT, "turns": the("the motor turns: ask each second, or it stops", YES)},
-)
-_KEYS = re.compile(r"[-+0-9.,ynfbqrludRLUDs? \r]{1,16}")
+_KEYS = r"[-+0-9.,ynfbqrludRLUDs? \r]{1,16}"
 _LINK = re.compile(r"\[([^\[\]]*)\]\([^()]*\)")
 """A link in a page of the documentation. Only its text is shown, because the box has no such page."""
+Answers = Annotated[dict[str, str], the("by the names in /api/setup/questions")]
+
+
+class _Choice(TypedDict):
+    answer: str
+    words: str
+
+
+class _Question(TypedDict):
+    name: str
+    text: str
+    help: str
+    choices: list[_Choice]
+    open: Annotated[bool, the("other answers than the choices may be typed")]
+    answer: Annotated[str, the("as given, else the offered one")]
+    mistake: Annotated[str, the("why it is no answer; empty: it is")]
+
+
+class _Questions(TypedDict):
+    questions: list[_Question]
+
+
+class _Pin(TypedDict):
+    gpio: int
+    key: str
+
+
+class _Chip(TypedDict):
+    bus: int
+    address: int
+    name: str
+
+
+class _Wiring(TypedDict):
+    kind: str
+    pins: list[_Pin]
+    chips: list[_Chip]
+    active: Annotated[str | None, the("the level that closes a relay")]
+
+
+class _Program(TypedDict):
+    name: str
+    protocols: Sequence[str]
+    where: str
+    settings: str
+
+
+class _Programs(TypedDict):
+    programs: list[_Program]
+
+
+class _Guide(TypedDict):
+    axis: Annotated[str | None, the("null: nothing is calibrated; the lines are of the last one")]
+    lines: Sequence[str]
+    prompt: NotRequired[str]
+    state: NotRequired[str]
+    turns: NotRequired[Annotated[bool, the("the motor turns: ask each second, or it stops")]]
+
+
+class _Answered(Sent):
+    answers: Answers
+
+
+class _Calibrate(MayStop):
+    axis: Literal["azimuth", "elevation"]
+
+
+class _Press(Sent):
+    keys: Annotated[
+        str, Field(pattern=f"^{_KEYS}$", description="as in `rotator calibrate`: r, l, u, d, y, n, a number …")
+    ]
+
+
+_ANSWERED = Body((_Answered, {"answers": {}}))
+_CALIBRATE = Body((_Calibrate, {"axis": "azimuth"}))
+_PRESS = Body((_Press, {"keys": "r"}), hint="the keys of `rotator calibrate`")
 
 
 class SettingUpApi:
@@ -68,34 +120,22 @@ class SettingUpApi:
         self._calibration = calibration
 
     def routes(self) -> Sequence[Route]:
-        axis = body_of({"axis": choice(*(axis.value for axis in Axis))}, STOP, example={"axis": "azimuth"})
-        pressed = the(
-            "as in `rotator calibrate`: r, l, u, d, y, n, a number …", {**TEXT, "pattern": f"^{_KEYS.pattern}$"}
-        )
-        keys = body_of({"keys": pressed}, example={"keys": "r"})
-        answers = body_of({"answers": ANSWERS}, example={"answers": {}})
-        lead = object_of({"questions": list_of(_QUESTION)})
-        pins = "What is wired to which pin and chip", _WIRING
-        programs = "Tracking programs and what to set in each", object_of({"programs": list_of(_PROGRAM)})
-        guide = "What the calibration says and asks", _GUIDE
+        pins, guide = ("What is wired to which pin and chip", _Wiring), ("What the calibration says and asks", _Guide)
+        programs = "Tracking programs and what to set in each", _Programs
         questions = "The questions of `rotator config --ask` that these answers lead to"
         calibrate = "Start anew with this axis as never set up, to calibrate it"
         return (
-            post("/api/setup/questions", self._questions, questions, answers, answer=lead),
+            post("/api/setup/questions", self._questions, questions, _ANSWERED, answer=_Questions),
             get("/api/setup/wiring", self._wiring, pins, access=PAIRED, more=refusals(409)),
             get("/api/setup/programs", self._programs, programs, access=PAIRED),
-            post("/api/calibrate", self._calibrate, calibrate, axis, answer=ANEW),
+            post("/api/calibrate", self._calibrate, calibrate, _CALIBRATE, answer=Begun),
             get("/api/calibration", self._guide, guide, access=PAIRED),
-            post("/api/calibration/press", self._press, "Press keys in the calibration", keys),
+            post("/api/calibration/press", self._press, "Press keys in the calibration", _PRESS),
         )
 
     async def _questions(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
-        match await values_of(request):
-            case {"answers": dict() as sent, **others} if not others:
-                answers = texts_of(sent)
-            case _:
-                raise WrongValuesError('send {"answers": {}}')
+        answers = _ANSWERED.read(await values_of(request))["answers"]
         config = (await self._file.settings()).config
         machine = await asyncio.to_thread(this_machine)
         found = asked({**(as_they_stand(config) if config else {}), **answers}, machine)
@@ -104,7 +144,7 @@ class SettingUpApi:
     async def _wiring(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
         config = await self._config()
-        wiring = {
+        wiring: _Wiring = {
             "kind": config.rotor.type,
             "pins": [{"gpio": gpio, "key": key} for gpio, key in config.pins()],
             "chips": [{"bus": each.bus, "address": each.address, "name": each.part} for each in config.chips()],
@@ -114,7 +154,7 @@ class SettingUpApi:
 
     async def _programs(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
-        programs = [
+        programs: list[_Program] = [
             {
                 "name": each.name,
                 "protocols": each.protocols,
@@ -127,18 +167,14 @@ class SettingUpApi:
 
     async def _calibrate(self, request: web.Request) -> web.StreamResponse:
         who = self._entrance.must_be_paired(request)
-        match await values_of(request):
-            case {"axis": "azimuth" | "elevation" as name, **others}:
-                axis, stops = Axis(name), stop_of(others)
-            case _:
-                raise WrongValuesError('send {"axis": "azimuth"}, or elevation')
-        file = self._file.path
+        sent = _CALIBRATE.read(await values_of(request))
+        axis, file = Axis(sent["axis"]), self._file.path
         try:
             axis_guide(await self._config(), axis)
         except HardwareError as reason:
             raise RefusedError(str(reason)) from None
-        self._file.may_stop(stops=stops)
-        log.warning("page: %s calibrates the %s of %s: the box starts anew for that", who.name, name, file)
+        self._file.may_stop(sent)
+        log.warning("page: %s calibrates the %s of %s: the box starts anew for that", who.name, axis.value, file)
         return web.json_response(self._file.begin_anew(axis))
 
     async def _guide(self, request: web.Request) -> web.StreamResponse:
@@ -149,11 +185,7 @@ class SettingUpApi:
 
     async def _press(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
-        match await values_of(request):
-            case {"keys": str() as keys, **others} if not others and _KEYS.fullmatch(keys):
-                pass
-            case _:
-                raise WrongValuesError('send {"keys": "r"}: the keys of `rotator calibrate`')
+        keys = _PRESS.read(await values_of(request))["keys"]
         if self._calibration is None:
             raise RefusedError("no axis is being calibrated now")
         self._calibration.press(keys)
@@ -166,7 +198,7 @@ class SettingUpApi:
         return config
 
 
-def _shown(each: Asked) -> dict[str, Any]:
+def _shown(each: Asked) -> _Question:
     question = each.question
     return {
         "name": question.name,

@@ -1,0 +1,77 @@
+"""What does not change while the box runs: ranges, beam, horizon, sectors, its place.
+
+Knows a mount and a place, and makes plain values of them. Knows no HTTP and no browser.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+from typing_extensions import TypedDict
+
+from rotator import __version__
+from rotator.control.sky.mount import Mount
+from rotator.exchange.status import Status
+from rotator.web.schema import Pair, the
+
+
+@dataclass(frozen=True, slots=True)
+class Station:
+    """`tolerances_deg`: of azimuth and elevation."""
+
+    mount: Mount
+    beam_deg: float
+    tolerances_deg: tuple[float, float]
+    where: tuple[float, float] | None
+    """Latitude and longitude; None: not known."""
+
+
+class _Range(TypedDict):
+    min_deg: float
+    max_deg: float
+
+
+class _Sector(TypedDict):
+    name: str
+    azimuth: Pair
+    elevation: Pair
+
+
+class BoxFacts(TypedDict):
+    version: str
+    simulated: Annotated[bool, the("nothing real turns")]
+    beam_deg: Annotated[float, the("how wide the antenna sees")]
+    where: Annotated[Pair | None, the("latitude and longitude, to a whole degree for who is not paired")]
+    azimuth: _Range
+    elevation: _Range
+    tolerance_deg: Annotated[Pair, the("of azimuth and elevation: so near is at the target")]
+    park: Annotated[Pair, the("azimuth and elevation")]
+    horizon: Annotated[Sequence[Pair], the("azimuth, and the least elevation there")]
+    sectors: Annotated[Sequence[_Sector], the("where the antenna may not go")]
+
+
+def box(station: Station, status: Status, *, stranger: bool) -> BoxFacts:
+    """The range, the horizon, the sectors: for the browser's one request. A stranger learns the place to a degree."""
+    mount = station.mount
+    exact = station.where
+    return {
+        "version": __version__,
+        "simulated": status.simulated,
+        "beam_deg": station.beam_deg,
+        "where": [round(deg) for deg in exact] if exact and stranger else exact,
+        "azimuth": {"min_deg": mount.azimuth.min_deg, "max_deg": mount.azimuth.max_deg},
+        "elevation": {"min_deg": mount.elevation.min_deg, "max_deg": mount.elevation.max_deg},
+        "tolerance_deg": station.tolerances_deg,
+        "park": [mount.park_azimuth_deg, mount.park_elevation_deg],
+        "horizon": list(mount.horizon),
+        "sectors": [
+            {
+                "name": sector.name,
+                "azimuth": [sector.azimuth.min_deg, sector.azimuth.max_deg],
+                "elevation": [sector.elevation.min_deg, sector.elevation.max_deg],
+            }
+            for sector in mount.sectors
+        ],
+    }
