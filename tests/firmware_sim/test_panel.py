@@ -44,14 +44,6 @@ def bench() -> Bench:
     return Bench()
 
 
-def test_positions_are_two_bits_of_closed_contacts(bench: Bench) -> None:
-    seen = []
-    for position in range(4):
-        bench.panel.turn_mode(position)
-        seen.append(bench.bits())
-    assert seen == [(False, False), (False, True), (True, False), (True, True)]
-
-
 def test_the_stop_button_is_normally_closed(bench: Bench) -> None:
     assert not bench.gpio.level(STOP)
     bench.panel.press_stop()
@@ -64,21 +56,6 @@ def test_the_stop_button_is_normally_closed(bench: Bench) -> None:
     assert not bench.gpio.level(STOP)
 
 
-def test_the_calibrate_switch(bench: Bench) -> None:
-    assert bench.gpio.level(CALIBRATE)
-    bench.panel.set_calibrate(closed=True)
-    assert not bench.gpio.level(CALIBRATE)
-
-
-def test_knobs_are_shares_of_the_supply() -> None:
-    bench = Bench(PanelSpec(azimuth_knob=0, elevation_knob=1, knob_end=0.95, end_ohm=0.0, pull_ohm=1e12))
-    bench.panel.turn_knob("azimuth", 1.0)
-    bench.panel.turn_knob("elevation", 0.5)
-    assert (bench.volts(0), bench.volts(1)) == pytest.approx((3.3 * 0.95, 3.3 * 0.475))
-    bench.panel.inject("azimuth-knob-wire-broken")
-    assert bench.volts(0) == 0.0
-
-
 @pytest.mark.parametrize(
     ("azimuth", "elevation", "volts"),
     [(0, 0, 1.65), (1, 0, 2.349), (-1, 0, 0.951), (0, 1, 2.136), (0, -1, 1.164), (1, 1, 2.533), (-1, 1, 1.406)],
@@ -88,14 +65,6 @@ def test_the_jog_switches_by_a_pocket_calculator(bench: Bench, azimuth: int, ele
     bench.panel.throw("azimuth", azimuth)
     bench.panel.throw("elevation", elevation)
     assert bench.volts(2) == pytest.approx(volts, abs=0.001)
-
-
-def test_the_jog_switches_wires(bench: Bench) -> None:
-    bench.panel.throw("azimuth", 1)
-    bench.panel.inject("jog-wire-broken")
-    assert bench.volts(2) == pytest.approx(1.65)
-    bench.panel.inject("jog-shorted")
-    assert bench.volts(2) == 0.0
 
 
 def test_a_supply_that_sags_takes_all_of_it_along(bench: Bench) -> None:
@@ -117,18 +86,6 @@ def test_a_broken_wire_of_a_knob_takes_its_input_to_a_rail() -> None:
             bench.panel.clear(f"azimuth-knob-{wire}-broken")
 
 
-def test_needles_and_lamps(bench: Bench) -> None:
-    bench.output(0, 0.25)
-    bench.output(3, 1.0)
-    assert bench.panel.needle("azimuth") == pytest.approx(0.5)  # its trimmer is set for half the time
-    assert bench.panel.lit() == {"auto"}
-    bench.output(0, 1.0)
-    assert bench.panel.needle("azimuth") == 1.0
-    bench.panel.inject("outputs-dip")
-    assert bench.panel.needle("azimuth") == 0.0
-    assert bench.panel.lit() == set()
-
-
 def test_a_bouncing_mode_switch_is_in_two_positions_by_turns(bench: Bench) -> None:
     bench.panel.turn_mode(2)
     bench.panel.inject("mode-switch-bouncing")
@@ -145,20 +102,3 @@ def test_a_broken_wire_of_the_mode_switch_makes_auto_manual(bench: Bench) -> Non
     bench.panel.turn_mode(2)
     bench.panel.inject("mode-wire-broken")
     assert bench.bits() == (False, False)
-
-
-@pytest.mark.parametrize(("fault", "address"), [("adc-gone", ADC), ("outputs-gone", BOARD)])
-def test_a_chip_that_has_gone(bench: Bench, fault: str, address: int) -> None:
-    bench.bus.read_byte(address)
-    bench.panel.inject(fault)
-    with pytest.raises(OSError, match="Remote I/O"):
-        bench.bus.read_byte(address)
-    bench.panel.clear(fault)
-    bench.bus.read_byte(address)
-
-
-def test_only_what_is_fitted_hangs_on_the_bus() -> None:
-    bench = Bench(PanelSpec(stop=STOP))
-    for address in (ADC, BOARD):
-        with pytest.raises(OSError, match="Remote I/O"):
-            bench.bus.read_byte(address)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import random
-
 import pytest
 
 from firmware_sim.clock import SimClock
@@ -23,27 +21,6 @@ def test_each_seventh_time() -> None:
     sporadic = Sporadic()
     sporadic.every = 7
     assert struck(sporadic, 30) == [7, 14, 21, 28]
-
-
-def test_some_in_a_row_each_tenth_time() -> None:
-    sporadic = Sporadic(in_a_row=3)
-    sporadic.every = 10
-    assert struck(sporadic, 24) == [10, 11, 12, 22, 23, 24]
-
-
-def test_never_before_it_is_asked_for_and_not_after_its_end() -> None:
-    sporadic = Sporadic(in_a_row=3)
-    assert struck(sporadic, 50) == []
-    sporadic.every = 2
-    assert struck(sporadic, 2) == [2]
-    sporadic.every = 0
-    assert struck(sporadic, 50) == [], "the rest of a burst neither"
-
-
-def test_at_random_as_often_on_average() -> None:
-    sporadic = Sporadic(chance=random.Random(7))
-    sporadic.every = 10
-    assert len(struck(sporadic, 5000)) == pytest.approx(500, rel=0.2)
 
 
 # --- on a rotor
@@ -99,9 +76,3 @@ def silent(rotor: SimRotor, transfers: int) -> int:
         except OSError:
             count += 1
     return count
-
-
-@pytest.mark.parametrize("name", ["azimuth-pot-crackles:0", "azimuth-pot-crackles:x", "azimuth-pot-open:3"])
-def test_a_number_that_is_not_taken_is_refused(g5500: SimRotor, name: str) -> None:
-    with pytest.raises(ValueError, match="does not strike"):
-        g5500.inject(name)

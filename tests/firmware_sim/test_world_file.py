@@ -11,8 +11,8 @@ from firmware_sim import world_file
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.world_file import WorldState
-from hw.ports import Axis, HardwareError
-from rotator.assembly.simulation import kept_world, simulated_rotor
+from hw.ports import Axis
+from rotator.assembly.simulation import simulated_rotor
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 
@@ -28,14 +28,6 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
     assert world_file.read(path) is None
     world_file.write(path, STATE)
     assert world_file.read(path) == STATE
-
-
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"format": "simulated world 1"}', '{"format": "other"}'])
-def test_a_damaged_file_is_named_and_nothing_starts(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "world.json"
-    path.write_text(text)
-    with pytest.raises(HardwareError, match=r"sim\.world: .*remove the file"):
-        kept_world(config_of(path))
 
 
 @pytest.mark.parametrize(("started_deg", "rests_deg"), [(10.0, 10.9), (359.5, 362.0)])

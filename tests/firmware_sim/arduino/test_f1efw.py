@@ -105,21 +105,6 @@ def test_ignores_everything_else_and_says_nothing(bench: Bench, sent: bytes) -> 
     assert bench.board.host_receive() == b""
 
 
-def test_an_order_may_be_cut_anywhere_by_the_turn_of_the_loop(bench: Bench) -> None:
-    order = b"W235 025\r"
-    for cut in range(1, len(order)):
-        bench.hear(b"W100 010\r")
-        bench.hear(order[:cut], order[cut:])
-        assert bench.sketch.target == Direction(235, 25), f"cut after {order[:cut]!r}"
-
-
-def test_half_an_order_is_forgotten_when_the_line_falls_silent(bench: Bench) -> None:
-    bench.hear(b"W235")
-    bench.hear(b" 025\r")
-
-    assert bench.sketch.target == Direction(0, 0)
-
-
 @pytest.mark.parametrize(
     ("azimuth_deg", "elevation_deg", "closed"),
     [
@@ -157,15 +142,6 @@ def test_zero_or_negative_elevation_stops_both_motors(bench: Bench, order: bytes
     assert bench.closed() == set()
 
 
-def test_nothing_moves_before_the_first_order(bench: Bench) -> None:
-    bench.antenna_at(300, 90)
-
-    for _ in range(100):
-        bench.sketch.loop()
-
-    assert bench.closed() == set()
-
-
 def test_a_reversal_opens_one_relay_and_closes_the_other_at_once(bench: Bench) -> None:
     bench.antenna_at(100, 10)
     bench.hear(b"W200 010\r")
@@ -175,19 +151,3 @@ def test_a_reversal_opens_one_relay_and_closes_the_other_at_once(bench: Bench) -
     bench.hear(b"W050 010\r")
 
     assert edges == [(CW, False), (CCW, True)]
-
-
-def test_it_compares_numbers_and_knows_no_shortest_way(bench: Bench) -> None:
-    bench.antenna_at(359, 20)
-
-    bench.hear(b"W001 020\r")
-
-    assert bench.closed() == {CCW}
-
-
-def test_a_turn_of_the_loop_takes_107_ms(bench: Bench) -> None:
-    before_s = bench.clock()
-
-    bench.sketch.loop()
-
-    assert bench.clock() - before_s == pytest.approx(0.107, abs=0.0005)

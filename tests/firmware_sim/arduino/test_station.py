@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import replace
 
-import pytest
-
-from firmware_sim.arduino.station import AZIMUTH_POT, ArduinoStation, Boom, coefficient
+from firmware_sim.arduino.station import ArduinoStation
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.motor import MotorSpec
-from firmware_sim.parts.pot import PotSpec
 
 AZIMUTH = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=0.0, stop_high_deg=450.0
@@ -41,19 +37,6 @@ def test_w235_025_turns_clockwise_and_up_until_within_4_degrees() -> None:
     assert station.host_receive() == b""
 
 
-def test_and_back_again() -> None:
-    station = switched_on(235.0, 25.0)
-
-    station.host_send(b"W100 005\r")
-    station.run_until(2.0)
-    assert station.drives() == (-1, -1)
-    station.run_until(60.0)
-
-    assert station.drives() == (0, 0)
-    assert 102.0 < station.antenna().azimuth_deg < 104.0
-    assert station.lcd_text()[0] == "SAT A:100 E:005 "
-
-
 def test_w100_000_stops_both_motors_where_they_are() -> None:
     station = switched_on()
     station.host_send(b"W235 025\r")
@@ -69,27 +52,6 @@ def test_w100_000_stops_both_motors_where_they_are() -> None:
 
     assert station.antenna() == at_rest
     assert station.lcd_text()[0] == "SAT A:100 E:000 "
-
-
-def test_garbage_moves_nothing() -> None:
-    station = switched_on(120.0, 30.0)
-
-    for moment_s in range(1, 20):
-        station.host_send(b"C2\rS\r+0120+0030\r\nWXYZ 12 W12\r AZ235 EL025\r\xff\x00")
-        station.run_until(float(moment_s))
-
-    assert station.antenna() == Boom(120.0, 30.0)
-    assert station.relay_starts == 0
-    assert station.lcd_text()[0] == "SAT A:000 E:000 "
-
-
-def test_display_follows_the_pots() -> None:
-    station = switched_on(123.4, 45.6)
-
-    station.run_until(1.0)
-
-    assert station.lcd_text() == ("SAT A:000 E:000 ", "ANT A:123 E:045 ")
-    assert station.display.busy_violations == 0
 
 
 def test_across_north_it_goes_all_the_way_back() -> None:
@@ -129,39 +91,3 @@ def test_an_order_sent_on_an_alarm_arrives_at_its_moment() -> None:
 
     assert sent_at_s == [1.0]
     assert station.drives() == (1, 1)
-
-
-def test_pot_noise_restarts_a_motor_but_never_shorts_it() -> None:
-    clock = SimClock()
-    noisy = replace(AZIMUTH_POT, noise_deg=1.0)
-    station = ArduinoStation(clock, clock.sleep, AZIMUTH, ELEVATION, azimuth_pot=noisy)
-
-    station.host_send(b"W100 004\r")
-    station.run_until(120.0)
-
-    assert station.relay_starts > 1
-    assert station.azimuth.motor.shorted_s == 0.0
-
-
-@pytest.mark.parametrize(
-    ("pot", "deg_per_count"),
-    [(AZIMUTH_POT, 450 / 1023), (PotSpec(low_deg=0.0, high_deg=360.0, low_ratio=0.0, high_ratio=0.9), 360 / 921)],
-)
-def test_coefficient_is_travel_over_the_count_at_its_end(pot: PotSpec, deg_per_count: float) -> None:
-    assert coefficient(pot) == deg_per_count
-
-
-def test_runs_in_a_thread_until_told_to_stop() -> None:
-    clock = SimClock()
-    stop = threading.Event()
-    clock.add_alarm(lambda: None if stop.is_set() else 30.0, lambda _: stop.set())
-    station = ArduinoStation(clock, clock.sleep, AZIMUTH, ELEVATION)
-    station.host_send(b"W050 020\r")
-
-    thread = threading.Thread(target=station.run, args=(stop,))
-    thread.start()
-    thread.join(timeout=30.0)
-
-    assert not thread.is_alive()
-    assert station.drives() == (0, 0)
-    assert station.lcd_text()[0] == "SAT A:050 E:020 "

@@ -5,16 +5,13 @@ Uses the real `gpiod.LineSettings` and its enums; time is a number.
 
 from __future__ import annotations
 
-import select
-import threading
-import time
 from datetime import timedelta
 
 import pytest
 from gpiod import LineSettings
 from gpiod.line import Bias, Direction, Edge, Value
 
-from firmware_sim.buses.gpio import RequestReleasedError, SimGpio, SimLineRequest
+from firmware_sim.buses.gpio import SimGpio, SimLineRequest
 from firmware_sim.clock import SimClock
 
 HEADER = "/dev/gpiochip0"
@@ -59,41 +56,10 @@ def test_every_edge_in_order_with_its_moment(gpio: SimGpio, clock: SimClock) -> 
     assert not request.wait_edge_events(0)
 
 
-@pytest.mark.parametrize(("edge", "kinds"), [(Edge.RISING, {"RISING_EDGE"}), (Edge.FALLING, {"FALLING_EDGE"})])
-def test_only_the_edges_asked_for_are_told_and_numbered(
-    gpio: SimGpio, clock: SimClock, edge: Edge, kinds: set[str]
-) -> None:
-    request = gpio.request_lines(HEADER, {17: LineSettings(edge_detection=edge)})
-    toggle(gpio, clock, 6)
-    events = request.read_edge_events()
-    assert {event.event_type.name for event in events} == kinds
-    assert [event.line_seqno for event in events] == [1, 2, 3]
-
-
 def test_edges_are_those_of_the_logical_value(gpio: SimGpio, clock: SimClock) -> None:
     request = gpio.request_lines(HEADER, {17: LineSettings(edge_detection=Edge.BOTH, active_low=True)})
     toggle(gpio, clock, 1)  # the pin rises
     assert told(request) == [("FALLING_EDGE", 0.001)]
-
-
-def test_lines_of_a_request_are_numbered_together_and_each_for_itself(gpio: SimGpio, clock: SimClock) -> None:
-    request = gpio.request_lines(HEADER, {(17, 27): BOTH})
-    for pin in (17, 27, 27, 17):
-        toggle(gpio, clock, 1, pin=pin)
-    events = request.read_edge_events()
-    assert [(event.line_offset, event.global_seqno, event.line_seqno) for event in events] == [
-        (17, 1, 1),
-        (27, 2, 1),
-        (27, 3, 2),
-        (17, 4, 2),
-    ]
-
-
-def test_a_line_whose_edges_are_wanted_is_an_input(gpio: SimGpio) -> None:
-    # libgpiod, lib/line-config.c: edge detection sets the input flag and takes the output flag away
-    gpio.request_lines(HEADER, {17: LineSettings(direction=Direction.OUTPUT, edge_detection=Edge.BOTH)})
-    gpio.drive_input(17, True)
-    assert gpio.level(17)
 
 
 # --- the buffer
@@ -113,15 +79,6 @@ def test_a_burst_of_a_hundred_unread_edges(
     while request.wait_edge_events(0):
         seqnos += [event.line_seqno for event in request.read_edge_events()]
     assert seqnos == list(range(101 - kept, 101))  # the oldest are gone
-
-
-def test_one_read_gives_64_events_where_nothing_else_was_said(gpio: SimGpio, clock: SimClock) -> None:
-    # libgpiod: the buffer of gpiod_edge_event_buffer_new(0); the kernel's holds 4 lines of 16
-    request = gpio.request_lines(HEADER, {(17, 27, 22, 23, 24): BOTH})
-    toggle(gpio, clock, 70)
-    assert len(request.read_edge_events()) == 64
-    assert len(request.read_edge_events(4)) == 4
-    assert len(request.read_edge_events()) == 2
 
 
 # --- debouncing
@@ -147,14 +104,6 @@ def test_a_spark_shorter_than_the_debounce_leaves_no_trace(gpio: SimGpio, clock:
     assert [event.line_seqno for event in request.read_edge_events()] == [1]
 
 
-def test_two_debounced_lines_are_told_in_order_of_time(gpio: SimGpio, clock: SimClock) -> None:
-    request = gpio.request_lines(HEADER, {(17, 27): DEBOUNCED})
-    toggle(gpio, clock, 1, pin=27)
-    toggle(gpio, clock, 1, pin=17)
-    clock.sleep(1.0)
-    assert [event.line_offset for event in request.read_edge_events()] == [27, 17]
-
-
 # --- bias
 
 
@@ -167,28 +116,6 @@ def test_an_open_contact_rests_where_the_bias_pulls_it(gpio: SimGpio, bias: Bias
 
 
 # --- waiting
-
-
-def test_the_descriptor_is_readable_while_there_are_events(gpio: SimGpio, clock: SimClock) -> None:
-    with gpio.request_lines(HEADER, {17: BOTH}) as request:
-        assert request.fileno() == request.fd
-        assert select.select([request.fd], [], [], 0)[0] == []
-        toggle(gpio, clock, 2)
-        assert select.select([request.fd], [], [], 0)[0] == [request.fd]
-        request.read_edge_events(1)
-        assert select.select([request.fd], [], [], 0)[0] == [request.fd]
-        request.read_edge_events(1)
-        assert select.select([request.fd], [], [], 0)[0] == []
-
-
-def test_who_waits_is_woken_by_an_edge_or_by_the_clock_on_the_wall() -> None:
-    gpio = SimGpio(time.monotonic)
-    with gpio.request_lines(HEADER, {17: BOTH}) as request:
-        assert not request.wait_edge_events(timedelta(milliseconds=1))
-        thread = threading.Thread(target=gpio.drive_input, args=(17, True))
-        thread.start()
-        assert [event.event_type.name for event in request.read_edge_events()] == ["RISING_EDGE"]
-        thread.join()
 
 
 def test_hardware_that_moves_by_itself_reports_when_it_is_read(gpio: SimGpio, clock: SimClock) -> None:
@@ -206,13 +133,3 @@ def test_hardware_that_moves_by_itself_reports_when_it_is_read(gpio: SimGpio, cl
     clock.sleep(0.5)
     assert not gpio.level(17)
     assert told(request) == [("RISING_EDGE", 0.27), ("FALLING_EDGE", 0.77)]
-
-
-def test_a_released_request_tells_nothing(gpio: SimGpio, clock: SimClock) -> None:
-    request = gpio.request_lines(HEADER, {17: BOTH})
-    request.release()
-    toggle(gpio, clock, 1)
-    with pytest.raises(RequestReleasedError):
-        request.wait_edge_events(0)
-    again = gpio.request_lines(HEADER, {17: BOTH})
-    assert not again.wait_edge_events(0)

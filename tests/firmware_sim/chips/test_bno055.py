@@ -7,7 +7,7 @@ import struct
 import pytest
 
 from firmware_sim.buses.i2c import Nack
-from firmware_sim.chips.bno055 import LEARNT, Bno055
+from firmware_sim.chips.bno055 import Bno055
 
 
 class Bench:
@@ -31,12 +31,6 @@ class Bench:
     def euler(self) -> tuple[int, int, int]:
         heading, roll, pitch = struct.unpack("<hhh", self.read(0x1A, 6))
         return heading, roll, pitch
-
-
-def test_the_identities() -> None:
-    bench = Bench()
-    bench.now_s = 1.0
-    assert bench.read(0x00, 4) == bytes.fromhex("a0 fb 32 0f")
 
 
 @pytest.mark.parametrize(("reset", "boot_s"), [(False, 0.4), (True, 0.65)])
@@ -65,27 +59,6 @@ def test_a_mode_takes_its_time() -> None:
         assert bench.read(0x3D)[0] == mode
 
 
-@pytest.mark.parametrize(("register", "value"), [(0x3B, 0x00), (0x41, 0x21), (0x42, 0x04), (0x55, 0x11)])
-def test_settings_are_taken_in_config_mode_only(register: int, value: int) -> None:
-    bench = Bench()
-    bench.chip.learns = False
-    bench.now_s = 1.0
-    bench.chip.write(bytes([register, value]))
-    assert bench.read(register)[0] == value
-    bench.run()
-    bench.chip.write(bytes([register, value ^ 0x0F]))
-    assert bench.read(register)[0] == value
-
-
-def test_page_1_hides_page_0() -> None:
-    bench = Bench()
-    bench.now_s = 1.0
-    bench.chip.write(b"\x07\x01")
-    assert bench.read(0x00) == b"\x00"
-    bench.chip.write(b"\x07\x00")
-    assert bench.read(0x00) == b"\xa0"
-
-
 @pytest.mark.parametrize(("units", "pitch"), [(0x80, -320), (0x00, 320)], ids=["Android", "Windows"])
 def test_sixteen_steps_a_degree_and_the_sign_of_the_pitch(units: int, pitch: int) -> None:
     bench = Bench()
@@ -95,61 +68,7 @@ def test_sixteen_steps_a_degree_and_the_sign_of_the_pitch(units: int, pitch: int
     assert bench.euler() == (1600, 0, pitch)
 
 
-def test_it_learns_and_shows_its_offsets() -> None:
-    bench = Bench()
-    bench.run()
-    assert bench.read(0x35) == b"\xff"
-    assert bench.read(0x55, 22) == LEARNT
-
-
-def test_in_config_mode_the_angles_stand_still() -> None:
-    bench = Bench()
-    bench.run()
-    assert bench.euler()[0] == 1600
-    bench.chip.write(b"\x3d\x00")
-    bench.now_s += 1.0
-    bench.heading_deg = 200.0
-    assert bench.euler()[0] == 1600
-
-
 # --- faults
-
-
-def test_never_calibrated_it_points_anywhere() -> None:
-    bench = Bench()
-    bench.chip.learns = False
-    bench.run()
-    assert (bench.read(0x35), bench.euler()[0]) == (b"\x00", 170 * 16)
-
-
-def test_steel_bends_the_needle_to_either_side() -> None:
-    bench = Bench()
-    bench.chip.hard_iron_deg = 10.0
-    bench.run()
-    found = []
-    for heading_deg in (90.0, 180.0, 270.0):
-        bench.now_s, bench.heading_deg = bench.now_s + 1.0, heading_deg
-        found.append(bench.euler()[0] / 16)
-    assert found == [100.0, 180.0, 260.0]
-
-
-def test_a_disturbance_swings() -> None:
-    bench = Bench()
-    bench.chip.wander_deg = 15.0
-    bench.run()
-    found = []
-    for _ in range(70):
-        bench.now_s += 0.1
-        found.append(bench.euler()[0] / 16)
-    assert [min(found), max(found)] == pytest.approx([85.0, 115.0], abs=0.2)
-
-
-def test_corrupted_bits_are_set_never_cleared() -> None:
-    bench = Bench()
-    bench.run()
-    bench.chip.bit7_share = 0.3
-    seen = {bench.read(0x02)[0] for _ in range(50)}
-    assert seen == {0x32, 0xB2}
 
 
 def test_busy_it_does_not_acknowledge() -> None:

@@ -17,10 +17,6 @@ def clock_in(chip: Mcp41010, bits: str, *, idle: bool = False) -> None:
     chip.pins(cs=True, sck=idle, si=False)
 
 
-def test_it_powers_up_in_the_middle() -> None:
-    assert Mcp41010().share() == 0.5
-
-
 @pytest.mark.parametrize(
     ("bits", "step"),
     [
@@ -52,24 +48,6 @@ def test_the_wiper_moves_when_the_select_rises_and_not_before() -> None:
     assert chip.step == 0x80
     chip.pins(cs=True, sck=True, si=False)
     assert chip.step == 0x40
-
-
-def test_shutdown_joins_wiper_and_b_until_the_next_write() -> None:
-    chip = Mcp41010()
-    clock_in(chip, "00100001 00000000")
-    assert chip.share() == 0.0
-    clock_in(chip, "00010001 01000000")
-    assert chip.share() == 0.25
-
-
-def test_clocks_without_select_are_for_another_chip() -> None:
-    chip = Mcp41010()
-    for bit in "0001000101000000":
-        chip.pins(cs=True, sck=False, si=bit == "1")
-        chip.pins(cs=True, sck=True, si=bit == "1")
-    chip.pins(cs=False, sck=False, si=False)
-    chip.pins(cs=True, sck=False, si=False)
-    assert chip.step == 0x80
 
 
 def test_a_supply_that_dips_puts_it_in_the_middle() -> None:

@@ -29,11 +29,6 @@ class Bench:
         self.now_s += 0.05
 
 
-def test_reset_values() -> None:
-    bench = Bench()
-    assert [bench.register(at) for at in (0x75, 0x6B, 0x1A, 0x1C)] == [0x68, 0x40, 0, 0]
-
-
 def test_asleep_it_says_nothing_and_takes_its_time_to_wake() -> None:
     bench = Bench()
     bench.now_s = 10.0
@@ -52,39 +47,3 @@ def test_ranges(afs_sel: int, steps: int) -> None:
     bench.chip.write(bytes([0x1C, afs_sel << 3]))
     bench.feels_g = (-0.5, 0.25, 1.0)
     assert bench.counts() == (-steps // 2, steps // 4, steps)
-
-
-def test_beyond_the_range_it_stays_at_the_end() -> None:
-    bench = Bench()
-    bench.wake()
-    bench.feels_g = (3.0, -3.0, 0.0)
-    assert bench.counts() == (32767, -32768, 0)
-
-
-@pytest.mark.parametrize("order", [b"\x6b\x80", None], ids=["DEVICE_RESET", "supply"])
-def test_a_reset_puts_it_to_sleep(order: bytes | None) -> None:
-    bench = Bench()
-    bench.wake()
-    bench.counts()
-    if order is None:
-        bench.chip.brown_out()
-    else:
-        bench.chip.write(order)
-    bench.now_s += 1.0
-    assert (bench.register(0x6B), bench.counts()) == (0x40, (0, 0, 0))
-
-
-def test_the_outputs_and_the_identity_cannot_be_written() -> None:
-    bench = Bench()
-    bench.chip.write(b"\x3b\x12\x34")
-    bench.chip.write(b"\x75\x00")
-    assert (bench.counts(), bench.register(0x75)) == ((0, 0, 0), 0x68)
-
-
-@pytest.mark.parametrize(("dlpf", "rms_mg"), [(0, 8.1), (4, 2.3), (6, 1.1)])
-def test_the_low_pass_takes_the_noise_down(dlpf: int, rms_mg: float) -> None:
-    bench = Bench(noise_g_per_root_hz=400e-6)
-    bench.wake()
-    bench.chip.write(bytes([0x1A, dlpf]))
-    mg = [bench.counts()[0] / 16.384 for _ in range(400)]
-    assert (sum(each**2 for each in mg) / len(mg)) ** 0.5 == pytest.approx(rms_mg, rel=0.12)

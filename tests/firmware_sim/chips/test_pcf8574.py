@@ -13,7 +13,7 @@ from smbus2 import i2c_msg
 
 from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.chips.hd44780 import Hd44780
-from firmware_sim.chips.pcf8574 import Backpack, Pcf8574
+from firmware_sim.chips.pcf8574 import Backpack
 
 ADDRESS = 0x27
 YWROBOT = {"rs": 0, "rw": 1, "e": 2, "bl": 3, "d4": 4, "d5": 5, "d6": 6, "d7": 7}
@@ -63,27 +63,6 @@ class Bench:
         self.write(ports)
 
 
-# --- the expander
-
-
-def test_all_ones_at_power_on() -> None:
-    assert Pcf8574().read(1) == b"\xff"
-
-
-def test_every_byte_is_on_the_pins_in_turn() -> None:
-    seen: list[int] = []
-    Pcf8574(seen.append).write(b"\x01\x02\x02\x03")
-    assert seen == [0x01, 0x02, 0x03]  # the second 0x02 changes nothing
-
-
-def test_a_pin_written_high_is_an_input() -> None:
-    # "Quasi-bidirectional I/Os"
-    chip = Pcf8574()
-    chip.write(b"\xf0")
-    chip.inputs = 0x7F
-    assert chip.read(2) == b"\x70\x70"
-
-
 # --- the backpack
 
 
@@ -117,40 +96,3 @@ def test_a_clear_needs_a_wait_that_the_wire_does_not_give() -> None:
     bench.initialise()
     bench.write(bench.send(0x01) + bench.send(0x41, 0x42, rs=True))
     assert bench.lcd.violations == 2
-
-
-def test_a_bus_without_time_is_not_a_hurry() -> None:
-    bench = Bench(YWROBOT, free=True)
-    bench.initialise()
-    bench.write_row("ANT A:231 E:024 ")
-    assert (bench.lcd.text()[0], bench.lcd.violations) == ("ANT A:231 E:024 ", 0)
-
-
-def test_the_first_byte_after_power_on_writes_nothing() -> None:
-    # All pins start high, RW among them: E falling ends a read cycle.
-    bench = Bench(YWROBOT)
-    bench.write(b"\x00")
-    assert bench.lcd.violations == 0
-
-
-@pytest.mark.parametrize(
-    ("pin_map", "active_high", "port", "lit"),
-    [
-        (YWROBOT, True, 0x08, True),
-        (YWROBOT, True, 0x00, False),
-        (YWROBOT, False, 0x08, False),
-        (MJKDZ, False, 0x00, True),
-        ({pin: bit for pin, bit in YWROBOT.items() if pin != "bl"}, True, 0x00, True),
-    ],
-)
-def test_backlight(pin_map: Mapping[str, int], active_high: bool, port: int, lit: bool) -> None:
-    bench = Bench(pin_map, backlight_active_high=active_high)
-    bench.write(bytes([port]))
-    assert bench.backpack.backlight == lit
-
-
-def test_a_grounded_rw_needs_no_pin() -> None:
-    bench = Bench({pin: bit for pin, bit in YWROBOT.items() if pin != "rw"})
-    bench.initialise()
-    bench.write_row("SAT A:--- E:--- ")
-    assert bench.lcd.text()[0] == "SAT A:--- E:--- "

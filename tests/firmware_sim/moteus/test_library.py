@@ -15,7 +15,6 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 import moteus
 
-from firmware_sim.clock import SimClock
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 
 
@@ -89,27 +88,3 @@ def test_the_librarys_own_move_to_arrives(tmp_path: Path) -> None:
 
     world = on_the_adapter(tmp_path, talk)
     assert world.antenna() == pytest.approx((108.0, -504.0), abs=0.01)
-
-
-def test_in_simulated_time_the_library_runs_on_the_transport_alone() -> None:
-    clock = SimClock()
-    world = SimMoteusRotor(MoteusAxisSpec(1), MoteusAxisSpec(2), clock)
-    controller = moteus.Controller(id=2, transport=world.transport())
-
-    async def talk() -> None:
-        await controller.set_position(position=0.5, watchdog_timeout=math.nan)
-        clock.sleep(3600.0)
-        assert (await controller.query()).values[moteus.Register.POSITION] == 0.5
-        world.inject("elevation-encoder")
-        answer = (await controller.query()).values
-        assert (answer[moteus.Register.MODE], answer[moteus.Register.FAULT]) == (1, 35)
-        world.inject("elevation-silent")
-        assert await controller.query() is None
-
-    asyncio.run(talk())
-
-
-def test_faults_are_injected_by_name_and_the_names_are_told() -> None:
-    world = SimMoteusRotor(MoteusAxisSpec(1), MoteusAxisSpec(2), SimClock())
-    with pytest.raises(ValueError, match=r"no fault called 'gremlin'; there are: .*azimuth-jammed.*lines-garbled"):
-        world.inject("gremlin")

@@ -56,19 +56,6 @@ def test_a_step_is_a_trapezoid_within_its_limits() -> None:
     assert next(at for at, speed in enumerate(speeds) if at > 10 and speed == 0) * 0.01 == pytest.approx(4.0, abs=0.1)
 
 
-@pytest.mark.parametrize("limits", [{}, {"velocity_limit": 2.0, "accel_limit": -1.0}], ids=["defaults", "no accel"])
-def test_with_weak_limits_it_is_soon_there(limits: dict[str, float]) -> None:
-    bench = Bench()
-    bench.go(position=0.5, timeout=math.nan, **limits)
-    assert bench.after(0.5).shaft_rev == pytest.approx(0.5, abs=1e-6)
-
-
-def test_without_any_limit_it_jumps() -> None:
-    bench = Bench()
-    bench.go(position=0.5, velocity_limit=-1.0, accel_limit=-1.0, timeout=math.nan)
-    assert bench.after(ENABLE_S + 0.002).shaft_rev == pytest.approx(0.5)
-
-
 def test_a_moving_target_is_caught_and_followed_exactly() -> None:
     bench = Bench()
     bench.go(position=0.1, velocity=0.02, velocity_limit=0.1, accel_limit=0.05, timeout=math.nan)
@@ -76,17 +63,6 @@ def test_a_moving_target_is_caught_and_followed_exactly() -> None:
         bench.clock.sleep_until(second)
         bench.motor.advance()
         assert bench.motor.shaft_rev == pytest.approx(0.1 + 0.02 * second, abs=1e-6)
-
-
-def test_the_answer_does_not_depend_on_how_often_one_looks() -> None:
-    positions = []
-    for looks in (1, 7, 130):
-        bench = Bench()
-        bench.go(position=0.3, velocity_limit=0.2, accel_limit=0.1, timeout=math.nan)
-        for _ in range(looks):
-            bench.after(1.3 / looks)
-        positions.append(bench.motor.shaft_rev)
-    assert positions == pytest.approx([positions[0]] * 3, abs=2e-4)
 
 
 def test_a_position_left_out_is_zero_not_stay() -> None:
@@ -111,12 +87,6 @@ def test_stop_position_with_limits_is_a_fault() -> None:
     assert (bench.motor.mode, bench.motor.fault_code) == (Mode.FAULT, 45)
 
 
-def test_enabling_takes_a_moment() -> None:
-    bench = Bench()
-    bench.go(position=math.nan)
-    assert [bench.motor.mode, bench.after(0.01).mode, bench.after(0.01).mode] == [2, 3, 10]
-
-
 # --- watchdog
 
 
@@ -133,15 +103,6 @@ def test_the_watchdog_latches_until_a_stop(timeout: float, expires_s: float) -> 
     bench.stop()
     bench.go(position=1.0, timeout=math.nan)
     assert bench.after(0.1).mode is Mode.POSITION
-
-
-@pytest.mark.parametrize(("timeout_mode", "coast_rev"), [(Mode.ZERO_VELOCITY, 0.0), (Mode.POSITION, 0.05)])
-def test_what_an_expired_watchdog_does_is_configured(timeout_mode: Mode, coast_rev: float) -> None:
-    bench = Bench(timeout_mode=timeout_mode)
-    bench.go(position=math.nan, velocity=0.1, accel_limit=0.1, timeout=3.0)
-    at_expiry_rev = bench.after(3.0).shaft_rev
-    assert bench.after(5.0).shaft_rev - at_expiry_rev == pytest.approx(coast_rev, abs=1e-3)
-    assert bench.motor.mode is Mode.TIMEOUT
 
 
 # --- bounds
@@ -178,12 +139,6 @@ def test_power_off_forgets_which_turn_of_the_rotor_it_was() -> None:
     bench.motor.set_output(0.305, exactly=False)  # within half a turn of the rotor
     assert bench.motor.position_rev == pytest.approx(0.3)
     assert bench.motor.home is Home.OUTPUT
-
-
-def test_set_output_exactly() -> None:
-    bench = Bench(shaft_rev=0.3, rotor_turns=50)
-    bench.motor.set_output(0.1234, exactly=True)
-    assert (bench.motor.position_rev, bench.motor.shaft_rev) == (pytest.approx(0.1234), 0.3)
 
 
 def test_a_fault_lets_go_and_latches() -> None:

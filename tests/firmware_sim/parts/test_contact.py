@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
 
 import pytest
 
@@ -48,24 +47,6 @@ def test_play_delays_every_edge_on_the_way_back() -> None:
     assert rounded(contact.take(2.0)) == [(round(1 + 1.4 / 5, 6), True), (round(1 + 2.4 / 5, 6), False)]
 
 
-@pytest.mark.parametrize("spacing_deg", [5.0, 6.0, 10.0])
-def test_a_turn_has_so_many_closures(spacing_deg: float) -> None:
-    contact = SimContact(ContactSpec(spacing_deg, 1.0, 0.3), 2.0)
-    contact.turned(0.0, 60.0, steadily(6.0, 2.0))
-    closings = [closed for _, closed in contact.take(61.0) if closed]
-    assert contact.zone == 2 * 360 / spacing_deg + 1
-    assert len(closings) >= 360 / spacing_deg  # bounces come on top
-
-
-def test_it_bounces_and_comes_to_rest_in_time() -> None:
-    contact = SimContact(ContactSpec(bounce_s=0.005), 4.9, seed=3)
-    contact.turned(0.0, 60.0, steadily(6.0, 4.9))
-    changes = contact.take(100.0)
-    assert len(changes) > 2 * 72
-    rests = [at_s for (at_s, _), (next_s, _) in pairwise(changes) if next_s - at_s > 0.02]
-    assert len(rests) == 2 * 72 - 1 + (contact.zone - 145)
-
-
 def test_steps_of_any_size_tell_the_same() -> None:
     whole, pieces = SimContact(QUIET, 0.5), SimContact(QUIET, 0.5)
     whole.turned(0.0, 10.0, steadily(6.0, 0.5))
@@ -108,13 +89,6 @@ def test_faults(fault: ContactFault, count: int) -> None:
     assert closures(contact) == count
 
 
-def test_put_right_it_shows_what_it_is() -> None:
-    contact = SimContact(QUIET, 0.5)
-    contact.break_down(ContactFault.STUCK_OPEN, 1.0)
-    contact.break_down(ContactFault.NONE, 2.0)
-    assert rounded(contact.take(3.0)) == [(1.0, False), (2.0, True)]
-
-
 # --- on its pins
 
 
@@ -128,9 +102,3 @@ def test_a_rotor_pulls_the_line_low_while_the_contact_is_closed() -> None:
     clock.sleep(0.3)
     assert rotor.gpio.level(17)
     assert rotor.shafts()[0] > 1.0
-
-
-def test_an_unknown_fault_is_answered_with_the_list() -> None:
-    rotor = SimRelayPulseRotor(RelayPulseAxisSpec(22, 23, 17), RelayPulseAxisSpec(24, 25, 27), SimClock())
-    with pytest.raises(ValueError, match="no fault called 'fire'; there are: azimuth-contact-stuck-closed"):
-        rotor.inject("fire")

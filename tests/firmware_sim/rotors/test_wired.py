@@ -5,18 +5,9 @@ from __future__ import annotations
 import threading
 import time
 
-import pytest
-
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.assembly.simulation import simulated_rotor
-from rotator.config.load import parse, shipped
 from tests.rotors.rig import configured
-
-
-def test_a_misspelt_axis_is_refused() -> None:
-    rotor = simulated_rotor(parse(shipped(), "simulated"), time.monotonic, None, (0.0, 0.0))
-    with pytest.raises(ValueError, match="azimut"):
-        rotor.wire_as5600("azimut", 0x36)
 
 
 def test_looking_at_servos_while_their_board_is_written_never_blocks() -> None:
