@@ -35,8 +35,3 @@ def test_it_says_what_it_measures_and_ends(
     said = capsys.readouterr().out
     assert said.startswith("usage: ")
     assert len(said.splitlines()) > 5
-
-
-def test_those_that_a_person_gives_numbers_are_among_them() -> None:
-    names = {path.name for path in ASKED}
-    assert {"recognised.py", "recognition.py", "recognition_delay.py", "trains.py", "small_machine.py"} <= names

@@ -5,8 +5,6 @@ from __future__ import annotations
 from itertools import combinations
 from pathlib import Path
 
-import pytest
-
 from benchmarks.picture import PEERS, PLOT, Point, kept, labels
 
 IMAGE = Path(__file__).parents[2] / "docs" / "img" / "passes.svg"
@@ -24,9 +22,3 @@ def test_labels_stay_inside_and_apart() -> None:
     assert len(placed) == len(points)
     assert all(label.box.inside(PLOT) for label in placed)
     assert not [(a.text, b.text) for a, b in combinations(placed, 2) if a.box.hits(b.box)]
-
-
-def test_a_label_without_room_is_an_error() -> None:
-    points: dict[str, Point] = {f"one of too many {name}": (100.0, 1.0) for name in range(30)}
-    with pytest.raises(ValueError, match="no room for the label"):
-        labels(points, dict.fromkeys(points, "black"))

@@ -53,20 +53,6 @@ def test_a_planted_bug_fits_the_source_and_comes_out_again(bug: Bug, tmp_path: P
     assert {path: (tree / path).read_bytes() for path in bug.paths} == before
 
 
-def test_there_are_planted_bugs_in_every_layer_that_moves_a_motor() -> None:
-    rooms = {str(Path(path).parent) for bug in BUGS.values() for path in bug.paths}
-    assert len(BUGS) >= 34
-    assert rooms >= {
-        "hw/drives",
-        "hw/moteus",
-        "hw/sensors",
-        "rotator/control",
-        "rotator/control/axis",
-        "rotator/panel",
-        "rotator/runtime",
-    }
-
-
 def test_no_planted_bug_changes_the_simulated_world_or_its_judges() -> None:
     assert not [
         path for bug in BUGS.values() for path in bug.paths if path.startswith(("firmware_sim/", "benchmarks/"))
@@ -108,15 +94,3 @@ def test_a_patch_that_does_not_fit_changes_nothing(tree: Path, text: str, why: s
     with pytest.raises(Misfit, match=why):
         plant(parse("sign", PATCH), tree)
     assert (tree / "motor.py").read_text() == text
-
-
-def test_a_bug_is_planted_once(tree: Path) -> None:
-    plant(parse("sign", PATCH), tree)
-    with pytest.raises(Misfit):
-        plant(parse("sign", PATCH), tree)
-
-
-@pytest.mark.parametrize("text", ["", "Wrong: no judge\n\n--- a/x.py\n", "Seen by: x\n\n--- a/x.py\n", PATCH + "?\n"])
-def test_a_text_that_is_no_patch_is_refused(text: str) -> None:
-    with pytest.raises(ValueError, match="sign"):
-        parse("sign", text)

@@ -9,11 +9,11 @@ import pytest
 import benchmarks.drills
 from benchmarks.drills import boxes, unusual
 from benchmarks.drills.boxes import BOTH, ROTORS, Rotor
-from benchmarks.drills.campaign import seeds, verdict
+from benchmarks.drills.campaign import verdict
 from benchmarks.drills.configured import configured
 from benchmarks.drills.draw import draw
 from benchmarks.drills.play import play
-from benchmarks.drills.script import LINKS, PEOPLE, Drill, Event
+from benchmarks.drills.script import Drill, Event
 from benchmarks.drills.speech import said
 from tests.search import some
 
@@ -60,30 +60,6 @@ def test_every_fault_that_is_drawn_is_one_of_the_simulator(rotor: Rotor) -> None
     names += [f"{name}:7" for name in rotor.shared_sporadic]
     events = tuple(Event(0.1, "world", "fault", (name,)) for name in names)
     assert play(Drill(rotor.kind, rotor.profile, 0.2, (90.0, 45.0), events=events, seed="names")).violations == []
-
-
-def test_every_kind_of_event_is_drawn_before_long() -> None:
-    drawn = {
-        (event.who in LINKS, event.who in PEOPLE, event.what)
-        for rotor in ROTORS
-        for number in range(60)
-        for event in draw(f"2.{number}", rotor.kind).events
-    }
-    linked = {what for link, _, what in drawn if link}
-    assert linked >= {"aim", "aim-azimuth", "aim-elevation", "stream", "flood", "jog", "stop", "stop-axis", "park"}
-    assert linked >= {"list", "run-list", "leave", "calibrate", "speed", "junk", "ask"}
-    persons = {what for _, person, what in drawn if person}
-    assert persons >= {"stop", "resume", "storm", "home", "confirm", "let-go", "aim", "jog", "leave"}
-    others = {what for link, person, what in drawn if not link and not person}
-    assert others >= {"mode", "knob", "fault", "clear", "weld", "unweld", "pace", "push", "every", "burst", "noise"}
-    assert others >= {"take", "give-back", "hold", "relays-checked"}
-    assert others >= {"drift", "stands", "stalled", "late", "hung", "jitter", "restart", "kill"}
-
-
-def test_a_campaign_fills_its_hours_with_all_kinds() -> None:
-    drawn = list(seeds(3, 1.0))
-    assert {kind for _, kind in drawn} == {rotor.kind for rotor in ROTORS}
-    assert sum(draw(seed, kind).seconds for seed, kind in drawn) >= 3600.0
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from benchmarks.drills.accusations import AWAY, Violation
 from benchmarks.drills.script import Drill, Event
 from benchmarks.drills.shrink import AFTER_S, Budget, shrink
@@ -36,22 +34,3 @@ def test_what_is_left_is_what_it_needs() -> None:
     assert least.commissioning == ""
     assert least.events[0].at_s == 1.0
     assert least.seconds == shown.at_s + AFTER_S
-
-
-def test_a_stream_that_a_plainer_box_has_no_time_for_is_no_mistake() -> None:
-    late = drill().with_events((*drill().events, Event(90.0, "gs232b", "stream", (10.0, 10.0, 0.0, 0.0, 1.0, 9.0))))
-    found = Violation(95.0, AWAY, "azimuth", "")
-
-    def sooner(tried: Drill) -> Violation:
-        """Without the table that makes it slow it shows before the stream begins."""
-        return replace(found, at_s=95.0 if tried.tables else 20.0)
-
-    least, _ = shrink(late, found, sooner, Budget(1e6))
-    assert least.seconds <= 20.0 + AFTER_S
-
-
-def test_without_time_to_try_it_is_cut_off_after_what_it_shows() -> None:
-    found = shows(drill())
-    assert found
-    least, _ = shrink(drill(), found, shows, Budget(0.0))
-    assert least == drill().until(65.0 + AFTER_S)

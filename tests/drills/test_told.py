@@ -10,7 +10,7 @@ import tomlkit
 
 from benchmarks.drills.boxes import PANEL, SWITCHES
 from benchmarks.drills.told import PANEL as OF_THE_PANEL
-from benchmarks.drills.told import SEEN, UNTOLD, plain, rule
+from benchmarks.drills.told import SEEN, UNTOLD, plain
 from firmware_sim.clock import SimClock
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
@@ -61,19 +61,3 @@ def test_each_fault_is_judged_or_excused_in_words_and_none_is_both(faults: set[s
 def test_each_rule_and_each_excuse_is_about_a_fault_of_a_simulator(faults: set[str]) -> None:
     of_the_drills = {"hung", "every", "card-hangs"}
     assert (set(SEEN) | set(UNTOLD)) - of_the_drills == faults
-
-
-@pytest.mark.parametrize(
-    ("name", "told"),
-    [
-        ("azimuth-pot-crackles", True),
-        ("azimuth-pot-crackles:20", True),
-        ("azimuth-pot-crackles:21", False),
-        ("azimuth-every:2", True),
-        ("elevation-replies-lost:13", False),
-        ("azimuth-low-switch-open", False),
-        ("elevation-relay-welded-down", True),
-    ],
-)
-def test_readings_that_are_seldom_bad_need_not_be_reported(name: str, *, told: bool) -> None:
-    assert (rule(name) is not None) == told

@@ -37,20 +37,6 @@ def test_compiled_packages_are_this_machines(seen: Visit) -> None:
     assert seen.compiled == Said(0, "")
 
 
-def test_the_unit_is_sound_and_shut_in(seen: Visit) -> None:
-    assert seen.verified == Said(0, "")
-    assert seen.exposure <= WORST_EXPOSURE
-
-
-def test_a_second_run_changes_nothing(seen: Visit) -> None:
-    assert seen.second_run.check().text.startswith("Nothing to do")
-    assert seen.changed_by_second_run == set()
-
-
-def test_removed_nothing_is_left(seen: Visit) -> None:
-    assert seen.left == set()
-
-
 def test_the_package_works_as_the_service_user(deb: DebVisit) -> None:
     assert deb.version.check().text.startswith("rotator ")
     assert deb.compiled == Said(0, "")

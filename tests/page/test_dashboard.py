@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.page.conftest import PATIENCE_MS, START_S, Station, headline, pair
+from tests.page.conftest import PATIENCE_MS, Station, headline, pair
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -88,14 +87,6 @@ def test_stop_works_by_key_while_a_question_is_open(start: Start, visit: Visit) 
     headline(page, "AT REST")
 
 
-def test_a_fault_is_told_with_its_remedy(start: Start, visit: Visit) -> None:
-    station = start("", "--fault", "azimuth-pot-open@8")
-    page = visit(station)
-    pair(page)
-    page.locator(".troubles", has_text="Check the pot's wires and its supply").wait_for()
-    headline(page, "FAULT")
-
-
 @pytest.mark.parametrize("how", [{}, PHONE], ids=["wide", "phone"])
 def test_a_fault_that_needs_a_person_is_cleared_and_the_antenna_moves_again(
     start: Start, visit: Visit, how: dict[str, object]
@@ -119,15 +110,6 @@ def test_a_fault_that_needs_a_person_is_cleared_and_the_antenna_moves_again(
     assert station.points(0.0, 40.0)
 
 
-def test_the_box_tracks_what_the_page_asks_for(start: Start, visit: Visit) -> None:
-    station = start(STATION)
-    page = visit(station)
-    pair(page)
-    page.get_by_label("Track").fill("JN58td")
-    page.get_by_role("button", name="Track", exact=True).click()
-    headline(page, "ON TARGET")
-
-
 def test_two_people_take_the_antenna_from_each_other_by_name(start: Start, visit: Visit) -> None:
     station = start()
     anna, bert = visit(station), visit(station)
@@ -142,15 +124,6 @@ def test_two_people_take_the_antenna_from_each_other_by_name(start: Start, visit
     anna.get_by_text("held by Bert").wait_for()
     bert.get_by_role("button", name="Give it back to the programs").click()
     anna.get_by_role("button", name="Take the antenna").wait_for()
-
-
-def test_a_box_that_has_gone_is_seen_to_be_gone(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    page.context.set_offline(True)
-    station.process.terminate()
-    station.process.wait(timeout=START_S)
-    page.get_by_text(re.compile("no connection: this is .* old")).wait_for()
 
 
 def test_the_page_is_the_mode_switch_of_a_box_that_has_none(start: Start, visit: Visit) -> None:

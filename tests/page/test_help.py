@@ -78,14 +78,6 @@ def test_a_pause_holds_the_picture_and_then_shows_what_came_meanwhile(start: Sta
     page.locator(".bytes .came", has_text="B\\r").wait_for()
 
 
-def test_a_browser_that_is_not_paired_sees_no_bytes(start: Start, visit: Visit) -> None:
-    page = visit(start())
-    page.get_by_role("link", name="Help").click()
-    page.get_by_role("link", name="Wires").click()
-    page.get_by_role("button", name="Pair this browser").wait_for()
-    assert page.locator(".bytes").count() == 0
-
-
 def test_a_backup_is_saved_and_restored_with_one_question(start: Start, visit: Visit, tmp_path: Path) -> None:
     station = start()
     page = visit(station)
@@ -106,16 +98,6 @@ def test_a_backup_is_saved_and_restored_with_one_question(start: Start, visit: V
     assert file.read_text() == text
     page.get_by_label("A backup").set_input_files(station.folder / "r.toml.before-restore.zip")
     page.locator(".diff .new", has_text="a mistake of mine").wait_for()
-
-
-def test_a_file_that_is_no_backup_is_refused_with_a_sentence(start: Start, visit: Visit) -> None:
-    page = visit(start())
-    pair(page)
-    page.get_by_role("link", name="Help").click()
-    page.get_by_role("link", name="Files").click()
-    page.get_by_label("A backup").set_input_files({"name": "a.zip", "mimeType": "application/zip", "buffer": b"hello"})
-    page.get_by_text("this is no backup of a rotator").wait_for()
-    assert page.get_by_role("button", name="Restore it").count() == 0
 
 
 def test_the_diagnostics_are_a_file_to_keep(start: Start, visit: Visit) -> None:

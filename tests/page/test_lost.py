@@ -198,14 +198,6 @@ def signs_of(page: Page) -> list[str | bytes]:
     return sent
 
 
-def test_stop_goes_over_the_open_connection_too(start: Start, visit: Visit) -> None:
-    page = visit(start())
-    sent = signs_of(page)
-    page.locator("#stop").click()
-    headline(page, "STOPPED by")
-    assert '{"stop":true}' in sent
-
-
 @pytest.mark.parametrize("key", ["", "Space"], ids=["by mouse", "by key"])
 def test_a_held_button_whose_view_is_left_is_let_go(start: Start, visit: Visit, key: str) -> None:
     page = visit(start())

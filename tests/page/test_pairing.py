@@ -20,19 +20,6 @@ Visit = Callable[..., "Page"]
 CLOSED = 'reading = "paired"\n'
 
 
-def test_who_is_revoked_may_look_on(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    pair(page, "lost phone")
-    page.get_by_role("link", name="Browsers").click()
-    page.get_by_text("lost phone", exact=True).first.wait_for()
-    page.get_by_role("button", name="Unpair lost phone").click()
-    page.get_by_role("button", name="Pair this browser").wait_for()
-    page.get_by_role("link", name="Antenna").click()
-    page.locator(".headline").wait_for()
-    assert page.get_by_role("button", name="Point there").count() == 0
-
-
 def test_a_lost_phone_is_unpaired_by_another_browser_and_its_button_turns_no_more(start: Start, visit: Visit) -> None:
     station = start()
     lost, mine = visit(station, **PHONE), visit(station)

@@ -127,13 +127,6 @@ def test_larger_text_leaves_stop_on_the_screen(
         assert page.evaluate("visualViewport.width") == width, view
 
 
-def test_the_size_of_text_is_the_browsers_own(start: Start, visit: Visit) -> None:
-    page = visit(start())
-    rules = "[...document.styleSheets].flatMap((each) => [...each.cssRules])"
-    sizes = page.evaluate(f"{rules}.filter((each) => each.selectorText === 'html').map((each) => each.style.fontSize)")
-    assert sizes[0] == "100%"
-
-
 def test_the_keyboard_alone_points_and_turns(start: Start, visit: Visit) -> None:
     station = start()
     page = visit(station)

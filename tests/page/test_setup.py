@@ -17,8 +17,8 @@ import pytest
 
 from rotator.assembly.simulation import PLACE_FILE
 from rotator.config.load import shipped
-from tests.page.conftest import START_S, STATIONS, Station, pair, until_it_answers, violations
-from tests.page.test_dashboard import PHONE, STATION, waits_for
+from tests.page.conftest import START_S, STATIONS, Station, pair, until_it_answers
+from tests.page.test_dashboard import PHONE, waits_for
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -72,21 +72,6 @@ def test_a_setting_is_changed_in_the_file_and_its_remark_stays(
     page.get_by_role("link", name="Antenna").click()
     page.get_by_role("button", name="Park", exact=True).click()
     page.get_by_text("The antenna turns to 95°").wait_for()
-
-
-def test_a_wrong_value_is_refused_beside_its_field(start: Start, visit: Visit) -> None:
-    station = start(REMARK)
-    page = visit(station)
-    at_setup(page)
-    before = (station.folder / "r.toml").read_text()
-    open_step(page, "Limits")
-    page.get_by_label("park_azimuth_deg").fill("4o")
-    page.get_by_role("button", name="See the change").click()
-    field = page.locator(".field", has=page.get_by_label("park_azimuth_deg"))
-    field.locator(".mistake", has_text="must be a number").wait_for()
-    assert page.get_by_label("park_azimuth_deg").get_attribute("aria-invalid") == "true"
-    assert page.get_by_role("button", name="Write it").count() == 0
-    assert (station.folder / "r.toml").read_text() == before
 
 
 STANDS = re.compile(r"^(119|120)\.\d°")
@@ -303,37 +288,3 @@ def test_a_motor_stops_when_the_browser_of_a_calibration_goes(start: Start, visi
     waits_for(page, lambda: station.world().drives == (1, 0))
     page.context.set_offline(True)
     waits_for(page, lambda: station.world().drives == (0, 0))
-
-
-@pytest.mark.parametrize("light", ["light", "dark"])
-def test_axe_finds_nothing_in_any_step(start: Start, visit: Visit, light: str) -> None:
-    page = visit(start(STATION), color_scheme=light, viewport={"width": 390, "height": 844})
-    at_setup(page)
-    assert violations(page) == [], "the steps"
-    for number in range(page.locator(".step").count()):
-        page.locator(".step > summary").nth(number).click()
-        page.wait_for_timeout(300)
-        assert violations(page) == [], f"step {number + 1}"
-        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"step {number + 1}"
-        page.locator(".step > summary").nth(number).click()
-    open_step(page, "All settings")
-    for summary in page.locator(".settings > details > summary").all():
-        summary.click()
-    assert violations(page) == [], "all settings open"
-    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-
-
-def test_the_keyboard_alone_changes_a_setting(start: Start, visit: Visit) -> None:
-    station = start(REMARK)
-    page = visit(station)
-    at_setup(page)
-    page.locator(".step > summary", has_text="Limits").focus()
-    page.keyboard.press("Enter")
-    page.get_by_label("park_azimuth_deg").focus()
-    page.keyboard.press("Control+a")
-    page.keyboard.type("120")
-    page.get_by_role("button", name="See the change").focus()
-    page.keyboard.press("Enter")
-    page.get_by_role("button", name="Write it").focus()
-    page.keyboard.press("Enter")
-    waits_for(page, lambda: values(station)["mount"]["park_azimuth_deg"] == 120)

@@ -171,23 +171,3 @@ def test_elements_are_sent_whole_or_not_at_all(start: Start, visit: Visit, tmp_p
     page.get_by_role("button", name="Remove mine.txt").click()
     page.get_by_text("mine.txt is removed.").wait_for()
     page.get_by_text("No satellite is known yet.").wait_for()
-
-
-def test_on_a_phone_nothing_of_the_sky_is_wider_than_the_screen(start: Start, visit: Visit, tmp_path: Path) -> None:
-    page = visit(
-        start(place(tmp_path, follow=("COMING", "RIVAL"))), viewport={"width": 360, "height": 740}, is_mobile=True
-    )
-    pair(page)
-    page.get_by_role("link", name="Sky").click()
-    page.locator(".plan td").first.wait_for(timeout=COMPUTED_MS)
-    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-
-
-def test_a_visitor_sees_the_plan_and_changes_nothing(start: Start, visit: Visit, tmp_path: Path) -> None:
-    page = visit(start(place(tmp_path, follow=("COMING",))))
-    page.get_by_role("link", name="Sky").click()
-    page.locator(".plan td", has_text="sets off").first.wait_for(timeout=COMPUTED_MS)
-    assert page.locator("main").get_by_role("button", name="Track").count() == 0
-    assert page.locator("main").get_by_role("button", name="COMING").count() == 0
-    assert page.get_by_label("Send a file").count() == 0
-    assert violations(page) == []

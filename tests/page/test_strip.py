@@ -94,15 +94,6 @@ def test_where_no_place_is_set_the_page_leads_to_the_step_that_sets_it(start: St
     page.locator("summary", has_text="8. Place and time").wait_for()
 
 
-def test_a_rotor_that_counts_is_told_where_it_stands(start: Start, visit: Visit) -> None:
-    page = visit(start(kind="relay-pulse"), **PHONE)
-    pair(page)
-    page.locator("summary", has_text="Tell the box where the azimuth stands").click()
-    page.get_by_label("The azimuth stands at").fill("12")
-    page.get_by_role("button", name="It stands there").first.click()
-    waits_for(page, lambda: "12" in page.locator(".glance span").inner_text())
-
-
 def test_stop_stays_in_sight_on_a_page_that_fingers_have_spread(start: Start, visit: Visit) -> None:
     """As it does above the keyboard of a phone: that, too, leaves less of the page to be seen."""
     page = visit(start(), **PHONE)
@@ -114,12 +105,3 @@ def test_stop_stays_in_sight_on_a_page_that_fingers_have_spread(start: Start, vi
             page.evaluate(f"scrollTo({corner})")
             waits_for(page, lambda: page.evaluate(STOP_FILLS_THE_FOOT))
     assert page.locator("#stop").bounding_box() == whole
-
-
-def test_another_view_begins_at_its_top(start: Start, visit: Visit) -> None:
-    page = visit(start(), **PHONE)
-    pair(page)
-    page.evaluate("scrollTo(0, document.body.scrollHeight)")
-    page.evaluate("location.hash = 'setup'")
-    page.get_by_text("Place and time").wait_for()
-    waits_for(page, lambda: page.evaluate("scrollY") == 0)

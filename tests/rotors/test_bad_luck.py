@@ -152,9 +152,3 @@ def put_right(box: Box, axis: Axis, remedy: Remedy) -> None:
             box.order(Confirm(axis, box.boom_deg(axis) + MISREAD_DEG), by=PERSON)
             box.run(0.5)
     assert box.axis(axis).uncalibrated == ""
-
-
-def test_no_line_is_there_for_nothing() -> None:
-    for kind in KINDS:
-        named = {plain(name) for found, name in FAULTS if found is kind}
-        assert set(OUTCOMES[kind.profile]) == named

@@ -107,11 +107,3 @@ def test_it_stands_says_so_and_goes_on_when_it_is_over(live: LiveBox, name: str)
     live.order(Aim(from_deg - 10.0, None))
     live.wait_for(lambda: abs(live.azimuth_deg() - from_deg + 10.0) <= live.kind.within_deg + 1.0)
     assert live.fault(AZ) == live.fault(EL) == ""
-
-
-def test_these_are_all_of_an_adapter_s() -> None:
-    box = LiveBox(BY_NAME["isel"])
-    try:
-        assert {name for name in box.world.faults if name.startswith(("adapter-", "lines-"))} == set(REAL_TIME["isel"])
-    finally:
-        box.close()

@@ -11,10 +11,9 @@ from hw.drives.servo import ServoDrive
 from hw.ports import AngleSource, Axis, Direction, HardwareError
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.readings import Window
-from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.exchange.faults import FaultKind
-from rotator.rotors.boxes import ASSUMED, UNFED, UNSEEN, BoxRotor, FollowedBox
+from rotator.rotors.boxes import UNFED, BoxRotor, FollowedBox
 from rotator.rotors.servos import ServoRotor
 from tests.rotors.journal import Journal
 
@@ -41,14 +40,6 @@ def servos(drive: Journal) -> ServoRotor:
     return ServoRotor(cast(ServoDrive, drive), {}, SHIFT, ends)
 
 
-def test_until_a_box_must_have_arrived_its_angle_is_assumed(box: BoxRotor, drive: Journal) -> None:
-    drive.assumed = {EL}
-    assert box.condition(EL).notice is ASSUMED
-    assert box.condition(AZ).notice is None
-    drive.assumed = set()
-    assert box.condition(EL).notice is None
-
-
 def test_a_box_that_turned_away_from_its_angle_is_a_fault_and_the_other_has_no_supply(
     box: BoxRotor, drive: Journal
 ) -> None:
@@ -64,22 +55,6 @@ def test_a_box_that_turned_away_from_its_angle_is_a_fault_and_the_other_has_no_s
     assert drive.said == ["cut", "restore"]
 
 
-def test_before_a_sensor_has_shown_its_place_neither_box_is_late_and_soon_it_is_said_why(
-    box: BoxRotor, drive: Journal
-) -> None:
-    for drive.blind_s, notice in ((0.5, None), (2.0, None), (2.1, UNSEEN)):
-        for axis in Axis:
-            assert (box.condition(axis).notice, box.condition(axis).settling) == (notice, True)
-    drive.blind_s = 0.0
-    assert (box.condition(AZ).notice, box.condition(AZ).settling) == (None, False)
-
-
-def test_until_a_servo_has_had_time_for_its_jump_it_settles(servos: ServoRotor, drive: Journal) -> None:
-    drive.assumed = {AZ}
-    assert servos.condition(AZ).settling
-    assert not servos.condition(EL).settling
-
-
 def test_a_fault_of_the_servo_board_names_the_axis(servos: ServoRotor, drive: Journal) -> None:
     assert servos.condition(EL).fault is None
     drive.wrong = {EL: "no pulses"}
@@ -87,19 +62,6 @@ def test_a_fault_of_the_servo_board_names_the_axis(servos: ServoRotor, drive: Jo
     assert fault is not None
     assert (fault.kind, fault.axis, fault.measured) == (FaultKind.SERVO_BOARD, EL, "no pulses")
     assert servos.condition(AZ).fault is None
-
-
-def test_both_tell_what_limit_switches_forbid(box: BoxRotor, servos: ServoRotor) -> None:
-    for rotor in (box, servos):
-        assert rotor.condition(AZ).ends == {Direction.MINUS}
-        assert rotor.condition(EL).ends == frozenset()
-
-
-def test_both_are_aimed_on_the_rotor_s_own_scale(box: BoxRotor, servos: ServoRotor, drive: Journal) -> None:
-    for rotor in (box, servos):
-        drive.said.clear()
-        rotor.obey(AZ, Steer(100.0, 0.0, 1.0))
-        assert drive.said == ["azimuth 90 at 0 until 1"]
 
 
 def test_servos_are_let_go_when_the_box_ends_even_after_a_failure(servos: ServoRotor, drive: Journal) -> None:
@@ -190,19 +152,6 @@ def test_the_first_place_is_shown_by_five_readings_that_are_more_than_half_of_th
     assert drive.models == {}
     sensor.read()
     assert drive.models == {EL: 90.0}
-
-
-@pytest.mark.parametrize(("turned_deg", "believed"), [(9.9, True), (-9.9, True), (10.1, False), (-10.1, False)])
-def test_no_box_turns_its_rotor_by_more_than_ten_degrees_from_reading_to_reading(
-    drive: Journal, turned_deg: float, believed: bool
-) -> None:
-    pot = Pot()
-    sensor = followed(drive, pot)
-    for _ in range(FIRST_READINGS):
-        sensor.read()
-    pot.reading = 0.5 + turned_deg / 180
-    sensor.read()
-    assert drive.models == {EL: pytest.approx(90.0 + turned_deg if believed else 90.0)}
 
 
 @pytest.mark.parametrize("every", [7, 8, 16, 32])

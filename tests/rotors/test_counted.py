@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from hw.drives.relays import RelayBank
-from hw.ports import AngleSource, Direction, HardwareError
+from hw.ports import Direction, HardwareError
 from rotator.control.commands import Place as Placed
 from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
@@ -18,7 +18,7 @@ from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.runtime.loop import COAST_S
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
 from rotator.store.hanging import HANGS_S
-from tests.hw.sensors.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
+from tests.hw.sensors.pulse_rig import AZ, CYCLE_S, PulseRig
 
 MINUS, OFF, PLUS = Direction
 CAMS = {AZ: {"spacing_deg": 5.0}}
@@ -70,13 +70,6 @@ def path(tmp_path: Path) -> Path:
 # --- the start
 
 
-def test_what_is_known_is_where_it_stands(path: Path) -> None:
-    mast = Mast(path, KNOWN)
-    assert mast.axis.read() == pytest.approx(180.0, abs=0.3)
-    assert mast.axis.condition(NO_ENDS).lost == ""
-    assert mast.axis.source is AngleSource.COUNTED
-
-
 @pytest.mark.parametrize(
     ("kept", "why"),
     [
@@ -92,12 +85,6 @@ def test_what_is_not_known_wants_homing_and_says_why(path: Path, kept: Place, wh
     assert mast.axis.condition(NO_ENDS).lost == why
     mast.wait(60.0)
     assert mast.on_disk().standing is not Standing.KNOWN, "a guess is never kept"
-
-
-def test_a_kept_place_that_the_contact_contradicts_is_not_believed(path: Path) -> None:
-    # At 181° the contact of this cam is closed; where the rotor stands it is open.
-    mast = Mast(path, Place(Standing.KNOWN, 180.8))
-    assert "the contact is open, which it is not at 180.8°" in mast.axis.condition(NO_ENDS).lost
 
 
 # --- moving
@@ -156,26 +143,6 @@ def test_it_coasts_until_its_angle_at_rest_is_told(path: Path) -> None:
     assert mast.on_disk().angle_deg == pytest.approx(mast.rig.shaft_deg, abs=2.0)
 
 
-def test_a_count_in_doubt_is_not_waited_for(path: Path) -> None:
-    mast = Mast(path, LOST)
-    mast.run(PLUS, 1.0)
-    assert not mast.rotor.coasts()
-
-
-def test_a_file_that_cannot_say_so_keeps_the_relay_open(path: Path) -> None:
-    mast = Mast(path, KNOWN)
-    mast.wait(1.0)
-    path.unlink()
-    path.mkdir()
-    assert mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2)) is OFF
-    fault = mast.axis.condition(NO_ENDS).fault
-    assert fault is not None
-    assert (fault.name, fault.passing) == ("count not kept", True)
-    path.rmdir()
-    mast.wait(1.0)
-    assert mast.axis.condition(NO_ENDS).fault is None
-
-
 def test_a_card_that_hangs_is_told_while_the_motor_waits_for_it(path: Path) -> None:
     mast, jobs = Mast(path, KNOWN), list[Callable[[], None]]()
     mast.counts_writer = CountsWriter(CountsFile(path, CAMS), jobs.append)
@@ -212,14 +179,6 @@ def test_closed_in_mid_coast_it_is_not_taken_for_a_rest(path: Path) -> None:
     mast.run(PLUS, 3.0)
     mast.rotor.close()
     assert mast.on_disk().standing is Standing.LOST
-
-
-def test_closed_at_rest_it_is_kept_at_once(path: Path) -> None:
-    mast = Mast(path, KNOWN)
-    mast.run(PLUS, 3.0)
-    mast.wait(STANDS_S)
-    mast.rotor.close()
-    assert mast.on_disk().standing is Standing.KNOWN
 
 
 # --- trouble
@@ -259,41 +218,6 @@ def test_a_loss_that_the_card_refuses_is_written_as_soon_as_it_takes_it(path: Pa
     in_the_way.rmdir()
     mast.wait(1.0)
     assert mast.on_disk().standing is Standing.LOST, "a power cut now, and the next run must not believe the old angle"
-
-
-def test_driven_and_quiet_is_a_fault_by_its_name(path: Path) -> None:
-    mast = Mast(path, KNOWN)
-    mast.rig.rotor.inject("azimuth-motor-stalled")
-    until_s = mast.rig.clock() + 4.0
-    while mast.rig.clock() < until_s:
-        mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2))
-        mast.rig.clock.sleep(CYCLE_S)
-        mast.axis.read()
-    fault = mast.axis.condition(NO_ENDS).fault
-    assert fault is not None
-    assert str(fault).startswith("azimuth: no pulses: its motor ran for three periods, the contact did not change")
-
-
-def test_placed_it_is_known_again_on_another_scale(path: Path) -> None:
-    mast = Mast(path, LOST, offset_deg=20.0)
-    before = mast.axis.condition(NO_ENDS)
-    mast.rotor.run(Placed(AZ, 200.0))
-    after = mast.axis.condition(NO_ENDS)
-    assert (after.lost, after.scale) == ("", before.scale + 1)
-    assert mast.axis.read() == pytest.approx(180.0), "20° less on the rotor's own scale"
-    assert mast.on_disk() == KNOWN
-
-
-def test_what_the_switches_say_is_passed_on(path: Path) -> None:
-    assert Mast(path, KNOWN).axis.condition(frozenset({PLUS})).ends == {PLUS}
-
-
-def test_without_a_file_nothing_is_waited_for() -> None:
-    rig = PulseRig(180.0)
-    axis = CountedAxis(AZ, rig.counter, None, rig.clock)
-    axis.begin(KNOWN)
-    assert axis.start(lambda: PLUS) is PLUS
-    assert axis.read() == pytest.approx(180.0, abs=0.3)
 
 
 @pytest.mark.parametrize("kept", [KNOWN, NEVER], ids=["known", "never"])

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.rotors.relay_pulse import SimRelayPulseRotor
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Home, Jog, Stop
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
@@ -18,8 +17,6 @@ U100 = KINDS[1]
 MINUS, OFF, PLUS = Direction
 PRESS_S = 2.0
 """How long an axis that was not homed obeys one order."""
-SPACING_DEG = 5.0
-"""From one closure of the contact to the next."""
 
 
 @pytest.fixture
@@ -58,17 +55,6 @@ def test_fresh_from_the_box_it_wants_homing(new_box: NewBox, counts: Path) -> No
     homed(box)
     assert box.world.shafts() == (0.0, 0.0)
     assert box.arrives(120.0, 40.0)
-
-
-def test_switched_off_at_rest_it_knows_where_it_is(new_box: NewBox, counts: Path) -> None:
-    box = new_box(U100, counts=counts)
-    homed(box)
-    assert box.arrives(123.0, 45.0)
-    box.close()
-    again = switched_on_again(new_box, box, counts)
-    assert [again.axis(axis).uncalibrated for axis in Axis] == ["", ""]
-    assert again.axis(AZ).angle_deg == pytest.approx(box.axis(AZ).angle_deg, abs=0.1)
-    assert again.arrives(60.0, 80.0)
 
 
 def test_the_power_goes_long_after_the_last_move(new_box: NewBox, counts: Path) -> None:
@@ -144,19 +130,6 @@ def test_a_disk_that_takes_no_more_is_told_and_nothing_moves_unkept(new_box: New
     assert box.arrives(120.0, 20.0)
 
 
-def test_pulses_missed_cost_homing_and_no_more_than_a_closure(new_box: NewBox) -> None:
-    """How far it may be off without knowing: what it says is one spacing from the truth at most."""
-    box = new_box(U100)
-    box.run(1.0)
-    box.world.inject("azimuth-pulses-missed")
-    box.order(Aim(150.0, None))
-    off_deg: list[float] = []
-    while box.axis(AZ).fault is None:
-        box.run(box.period_s)
-        off_deg.append(abs((box.axis(AZ).angle_deg or 0.0) - box.shaft_deg(AZ)))
-    assert max(off_deg) <= 1.05 * SPACING_DEG
-
-
 # --- homing
 
 
@@ -225,11 +198,3 @@ def test_a_relay_that_welds_on_a_counting_rotor_is_shouted_and_cuts(new_box: New
     box = welded(new_box)
     assert box.status.cut
     assert [fault.act_now for fault in box.status.faults] == ["CUT MOTOR POWER!"]
-
-
-def test_nor_is_it_met_by_the_opposite_relay(new_box: NewBox) -> None:
-    box = welded(new_box)
-    box.order(Stop(), Jog(AZ, MINUS))
-    box.run(1.5)
-    assert isinstance(box.world, SimRelayPulseRotor)
-    assert box.world.azimuth.motor.shorted_s == 0.0

@@ -56,11 +56,6 @@ def standing(path: Path, axis: Axis = AZ) -> Standing:
     return CountsFile(path, CAMS).load()[axis].standing
 
 
-def test_what_was_kept_is_there_before_anything_else(path: Path) -> None:
-    known(path)
-    assert CountsWriter(CountsFile(path, CAMS), at_once).load()[AZ] == Place(Standing.KNOWN, 100.0)
-
-
 def test_a_motor_waits_until_the_file_says_that_it_moves(path: Path, disk: SlowDisk) -> None:
     counts_writer = CountsWriter(known(path), disk)
     assert [counts_writer.may_start(AZ) for _ in range(3)] == [False] * 3, "asked once, and then waited for"
@@ -71,14 +66,6 @@ def test_a_motor_waits_until_the_file_says_that_it_moves(path: Path, disk: SlowD
     assert counts_writer.may_start(AZ)
     assert standing(path, EL) is Standing.KNOWN
     assert counts_writer.trouble(AZ) == ""
-
-
-def test_the_mark_stays_while_it_goes_from_step_to_step(path: Path, disk: SlowDisk) -> None:
-    counts_writer = CountsWriter(known(path), disk)
-    counts_writer.may_start(AZ)
-    disk.work()
-    assert [counts_writer.may_start(AZ) for _ in range(5)] == [True] * 5
-    assert disk.jobs == []
 
 
 def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> None:
@@ -105,13 +92,6 @@ def test_a_mark_that_a_rest_may_have_taken_back_lets_no_motor_start(path: Path, 
     assert counts_writer.may_start(AZ)
 
 
-def test_a_rest_is_kept_at_once(path: Path) -> None:
-    counts_writer = CountsWriter(known(path), at_once)
-    counts_writer.may_start(AZ)
-    counts_writer.rests(AZ, 123.0)
-    assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 123.0)
-
-
 def test_a_file_that_cannot_be_written_refuses_and_says_why(path: Path, disk: SlowDisk) -> None:
     counts_writer = CountsWriter(known(path), disk)
     path.unlink()
@@ -136,13 +116,6 @@ def test_what_is_lost_anyway_may_move_whatever_the_disk_does(path: Path) -> None
     path.unlink()
     path.mkdir()
     assert counts_writer.may_start(AZ)
-
-
-def test_homed_it_is_known_again(path: Path) -> None:
-    counts_writer = CountsWriter(known(path), at_once)
-    counts_writer.lost(AZ)
-    counts_writer.homed(AZ, 0.0)
-    assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 0.0)
 
 
 def test_in_real_time_a_thread_of_its_own_writes_and_ends(path: Path) -> None:

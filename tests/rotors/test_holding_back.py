@@ -71,14 +71,6 @@ def test_a_control_thread_that_is_gone_leaves_nothing_turning(box: Box) -> None:
 # --- off
 
 
-def test_off_is_safe_before_anything_and_again_and_again(kind: Kind, new_box: NewBox) -> None:
-    box = new_box(kind)
-    for _ in range(3):
-        box.rotor.off()
-        box.left_alone(1.0)
-    assert box.world.antenna() == pytest.approx(kind.start_deg, abs=1e-6)
-
-
 def test_off_in_mid_move_is_the_end_of_it(box: Box) -> None:
     turning(box)
     box.rotor.off()
@@ -101,17 +93,6 @@ def test_off_at_any_moment_keeps_nobody_from_going_on(box: Box) -> None:
     assert box.boom_deg(AZ) == pytest.approx(120.0, abs=box.kind.within_deg)
     assert box.boom_deg(EL) == pytest.approx(60.0, abs=box.kind.within_deg)
     assert box.status.faults == ()
-
-
-def test_closed_it_is_off(box: Box) -> None:
-    turning(box)
-    box.rotor.close()
-    assert box.world.drives() == (0, 0)
-    from_deg = box.world.shafts()
-    box.left_alone(3.0)
-    for was_deg, is_deg in zip(from_deg, box.world.shafts(), strict=True):
-        assert is_deg - was_deg <= box.kind.run_on_deg
-    assert stands_still(box)
 
 
 # --- a fault
@@ -139,19 +120,6 @@ def test_with_a_fault_nothing_moves(box: Box, order: Order) -> None:
     box.run(2.0)
     assert box.world.shafts() == pytest.approx(before_deg, abs=max(0.01, box.kind.trembles_deg))
     assert len(box.status.faults) == 2
-
-
-@pytest.mark.parametrize("order", [Stop(), Release()], ids=["S", "release"])
-def test_acknowledged_it_moves_again(box: Box, order: Order) -> None:
-    without_a_turn(box)
-    box.until_it_stands()
-    box.order(order, by=PERSON)
-    box.run(0.5)
-    assert box.status.faults == ()
-    box.order(Aim(150.0, 15.0), by=PERSON)
-    box.until_it_stands()
-    assert box.boom_deg(AZ) == pytest.approx(150.0, abs=box.kind.within_deg)
-    assert box.boom_deg(EL) == pytest.approx(15.0, abs=box.kind.within_deg)
 
 
 # --- limit switches

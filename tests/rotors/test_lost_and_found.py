@@ -22,16 +22,6 @@ PLUS = Direction.PLUS
 # --- a controller that was switched off and on
 
 
-def test_a_person_who_confirms_again_and_again_makes_no_loose_wire(new_box: NewBox) -> None:
-    box = new_box(ISEL)
-    box.run(1.0)
-    for angle_deg in (150.0, 60.0, 160.0, 50.0, 150.0):
-        box.order(Confirm(AZ, angle_deg), by=PERSON)
-        box.run(15.0)
-        assert box.axis(AZ).angle_deg == pytest.approx(angle_deg, abs=30.0), "the encoder knows the rest"
-    assert not box.status.faults
-
-
 def test_nothing_moves_a_controller_that_has_forgotten_its_turn_but_a_person_s_word(new_box: NewBox) -> None:
     box = new_box(ISEL)
     box.run(1.0)

@@ -11,7 +11,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.angles import great_circle_deg
-from rotator.exchange.orders import Aim, Jog, Nudge, Park, Release, Stop
+from rotator.exchange.orders import Aim, Jog, Nudge, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import AxisStatus
 from tests.rotors.rig import AZ, EL, LINK, PERSON, Box, Kind, all_but, configured
@@ -45,24 +45,7 @@ def test_nothing_moves_before_an_order(kind: Kind, new_box: NewBox) -> None:
     assert (box.status.moving, box.status.faults, box.status.wanted_azimuth_deg) == (False, (), None)
 
 
-def test_it_says_how_it_knows_its_angles(box: Box) -> None:
-    for axis in Axis:
-        said = box.axis(axis)
-        assert (said.source, said.uncalibrated) == (box.kind.source, "")
-
-
 # --- aims
-
-
-@all_but()
-def test_what_has_arrived_is_not_said_to_move(kind: Kind, new_box: NewBox) -> None:
-    box = new_box(kind)
-    box.run(1.0)
-    box.order(Aim(120.0, 60.0))
-    box.until_it_stands()
-    box.run(1.0)
-    assert not box.status.moving
-    assert [box.axis(axis).drive for axis in Axis] == [OFF, OFF]
 
 
 def test_it_goes_where_it_is_aimed_and_stands_there(box: Box) -> None:
@@ -132,16 +115,6 @@ def test_there_and_back_and_the_other_way_in_mid_move(box: Box) -> None:
     assert box.status.faults == ()
 
 
-@EACH_AXIS
-def test_an_aim_of_one_axis_leaves_the_other(box: Box, axis: Axis) -> None:
-    other = EL if axis is AZ else AZ
-    stood_deg = box.boom_deg(other)
-    box.order(Aim(120.0, None) if axis is AZ else Aim(None, 60.0))
-    box.until_it_stands()
-    assert box.boom_deg(axis) == pytest.approx(120.0 if axis is AZ else 60.0, abs=box.kind.within_deg)
-    assert box.boom_deg(other) == pytest.approx(stood_deg, abs=max(0.01, box.kind.trembles_deg))
-
-
 def test_a_target_that_moves_is_followed(box: Box) -> None:
     box.order(Aim(100.0, 40.0))
     box.until_it_stands()
@@ -158,26 +131,7 @@ def test_a_target_that_moves_is_followed(box: Box) -> None:
     assert box.status.faults == ()
 
 
-def test_parked_it_is_at_its_park_position(kind: Kind, new_box: NewBox) -> None:
-    box = new_box(kind, mount={"park_azimuth_deg": 100.0, "park_elevation_deg": 45.0})
-    box.run(1.0)
-    box.order(Park())
-    box.until_it_stands()
-    assert arrived(box, 100.0, 45.0)
-
-
 # --- jogs
-
-
-@all_but()
-def test_the_first_order_may_be_a_jog(kind: Kind, new_box: NewBox) -> None:
-    box = new_box(kind)
-    box.run(1.0)
-    box.order(Jog(AZ, PLUS))
-    box.run(6.0)
-    box.order(Stop())
-    box.until_it_stands()
-    assert box.shaft_deg(AZ) > kind.start_deg[0] + 10.0
 
 
 @EACH_AXIS
@@ -255,17 +209,6 @@ def test_stop_stops_at_once(box: Box) -> None:
     for was_deg, is_deg in zip(stopped_deg, box.world.shafts(), strict=True):
         assert -box.kind.trembles_deg <= is_deg - was_deg <= box.kind.run_on_deg
     assert (box.axis(AZ).target_deg, box.axis(EL).target_deg) == (None, None)
-
-
-def test_stop_forgets_the_target(box: Box) -> None:
-    box.order(Aim(150.0, 80.0))
-    box.run(1.0)
-    box.order(Stop())
-    box.until_it_stands()
-    stood_deg = box.world.shafts()
-    box.run(5.0)
-    assert box.world.shafts() == pytest.approx(stood_deg, abs=max(0.01, box.kind.trembles_deg))
-    assert box.status.wanted_azimuth_deg is None
 
 
 def test_a_person_s_stop_holds_until_the_person_releases_it(box: Box) -> None:

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.turns import LONGEST_WAIT_S
-from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.gs232 import Dialect
@@ -24,7 +23,6 @@ from tests.rotors.rig import AZ, EL, KINDS, Box, Kind
 NewBox = Callable[..., Box]
 SERVOS = next(kind for kind in KINDS if kind.profile == "servos")
 Words = Callable[[Box, float | None, float | None], None]
-Step = tuple[float | None, float | None, float]
 
 
 def boom(box: Box) -> tuple[float, float]:
@@ -71,38 +69,6 @@ def test_an_elevation_alone_keeps_the_azimuth_of_an_antenna_over_the_top(new_box
     box.until_it_stands()
     assert points_at(box, 200.0, 20.0)
     assert (box.status.wanted_azimuth_deg, box.status.wanted_elevation_deg) == (200.0, 20.0)
-
-
-def test_an_azimuth_alone_that_needs_the_other_side_is_obeyed(new_box: NewBox) -> None:
-    box = new_box(SERVOS)
-    box.run(1.0)
-    easycomm(box, 90.0, 40.0)
-    box.until_it_stands()
-    easycomm(box, 250.0, None)
-    box.until_it_stands()
-    assert points_at(box, 250.0, 40.0)
-
-
-def test_two_lines_are_as_good_as_one(new_box: NewBox) -> None:
-    box = new_box(SERVOS)
-    box.run(1.0)
-    easycomm(box, 250.0, None)
-    box.run(0.1)
-    easycomm(box, None, 30.0)
-    box.until_it_stands()
-    assert points_at(box, 250.0, 30.0)
-
-
-def test_an_azimuth_of_dcu1_goes_over_the_top_too(new_box: NewBox) -> None:
-    box = new_box(SERVOS)
-    box.run(1.0)
-    easycomm(box, 90.0, 40.0)
-    box.until_it_stands()
-    session = Dcu1Session(box.client())
-    session.receive(b"AP1270;")
-    session.receive(b"AM1;")
-    box.until_it_stands()
-    assert points_at(box, 270.0, 40.0)
 
 
 directions = st.tuples(st.integers(0, 359).map(float), st.integers(5, 85).map(float))

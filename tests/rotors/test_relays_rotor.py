@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
-
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
 from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
-from rotator.control.commands import HOLD, Feed, Run, Unfed
+from rotator.control.commands import Feed, Run, Unfed
 from rotator.rotors.relays import RelayRotor
 
 MINUS, OFF, PLUS = Direction
@@ -31,22 +29,6 @@ class Bench:
 
     def on(self) -> set[str]:
         return {name for name, pin in PINS.items() if self.gpio.level(pin)}
-
-
-def test_a_direction_closes_its_relay_until_the_command_ends() -> None:
-    bench = Bench()
-    assert bench.run(AZ, MINUS) is MINUS
-    assert bench.run(EL, PLUS) is PLUS
-    assert bench.on() == {"azimuth_ccw", "elevation_up", "master"}
-    assert bench.run(EL, OFF) is OFF
-    assert bench.on() == {"azimuth_ccw", "master"}
-    bench.clock.sleep(0.3)
-    assert bench.on() == {"master"}
-
-
-def test_an_angle_is_no_command_for_relays() -> None:
-    with pytest.raises(AssertionError, match="directions only"):
-        Bench().rotor.obey(AZ, HOLD)
 
 
 def test_the_supply_is_cut_until_it_is_restored() -> None:
@@ -74,23 +56,3 @@ def test_the_supply_is_on_for_a_look_and_off_when_it_shall_turn_nothing() -> Non
     assert bench.on() == set(), "it does not linger"
     assert bench.rotor.driven(AZ) is OFF
     assert not bench.rotor.condition(AZ).supplied
-
-
-def test_without_a_master_there_is_no_supply_to_cut() -> None:
-    bench = Bench(master=False)
-    assert not bench.rotor.cut()
-    assert bench.run(AZ, PLUS) is PLUS
-
-
-def test_off_and_close_open_everything() -> None:
-    bench = Bench()
-    for end in (bench.rotor.off, bench.rotor.close):
-        bench.run(AZ, PLUS)
-        end()
-        assert bench.on() == set()
-
-
-def test_what_limit_switches_forbid_is_told() -> None:
-    rotor = Bench().rotor
-    assert rotor.condition(EL).ends == {PLUS}
-    assert rotor.condition(AZ).ends == frozenset()

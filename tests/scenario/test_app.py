@@ -7,7 +7,7 @@ import os
 import socket
 import threading
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
-from contextlib import AsyncExitStack, asynccontextmanager
+from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
@@ -91,16 +91,6 @@ async def terminal(path: Path) -> AsyncIterator[Line]:
 async def watching(path: Path) -> AsyncIterator[Line]:
     """A client of the monitor. It is closed also where the test fails: else a later test is blamed for its socket."""
     reader, writer = await asyncio.open_unix_connection(str(path))
-    try:
-        yield Line(reader, writer.write)
-    finally:
-        writer.close()
-        await asyncio.gather(writer.wait_closed(), return_exceptions=True)
-
-
-@asynccontextmanager
-async def connection(port: int) -> AsyncIterator[Line]:
-    reader, writer = await asyncio.open_connection("127.0.0.1", port)
     try:
         yield Line(reader, writer.write)
     finally:
@@ -214,47 +204,6 @@ def test_every_relay_is_off_after_a_stop_in_mid_motion(config: Config, tmp_path:
     assert not (tmp_path / "gs232").is_symlink()
 
 
-def test_two_links_share_one_rotor(config: Config, tmp_path: Path, port: int) -> None:
-    async def talk() -> None:
-        async with (
-            running(App(config)) as (_, relays),
-            terminal(tmp_path / "gs232") as gs232,
-            connection(port) as rotctld,
-        ):
-            assert await rotctld.ask(b"P 100 0\n") == b"RPRT 0\n"
-            await relays.until((1, 0).__eq__)
-            gs232.send(b"S\r")
-            await relays.until(OFF.__eq__)
-            assert await rotctld.ask(b"S\n") == b"RPRT 0\n"
-            assert position(await gs232.ask(b"C2\r"))[0] < 100
-
-    asyncio.run(talk())
-
-
-def test_it_stops_with_clients_connected(config: Config, port: int) -> None:
-    async def talk() -> None:
-        async with AsyncExitStack() as clients:
-            async with running(App(config)):
-                client = await clients.enter_async_context(connection(port))
-                assert (await client.ask(b"_\n")).startswith(b"gs232-rotator")
-            with pytest.raises((asyncio.IncompleteReadError, ConnectionError)):
-                await client.answer()
-
-    asyncio.run(talk())
-
-
-def test_the_display_shows_the_order(config: Config, tmp_path: Path) -> None:
-    async def talk() -> None:
-        async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
-            line.send(b"W235 025\r")
-            await relays.until((1, 1).__eq__)
-            async with asyncio.timeout(PATIENCE_S):
-                while world.lcd is None or world.lcd.text()[0] != "SAT A:235 E:025 ":
-                    await line.ask(b"C2\r")
-
-    asyncio.run(talk())
-
-
 def test_its_links_can_be_watched_and_where_they_cannot_it_runs_all_the_same(config: Config, tmp_path: Path) -> None:
     """Two boxes share a folder, and so the place of the monitor: the second one goes without."""
 
@@ -285,16 +234,6 @@ def test_its_links_can_be_watched_and_where_they_cannot_it_runs_all_the_same(con
 # --- ends without a stop
 
 
-def test_each_part_with_a_thread_has_one_while_it_runs(config: Config) -> None:
-    """What `check_all_gone` looks for is there under these names."""
-
-    async def talk() -> None:
-        async with running(App(config)):
-            assert {thread.name for thread in threading.enumerate()} >= THREADS
-
-    asyncio.run(talk())
-
-
 def check_all_gone(app: App) -> None:
     assert app.station.world is not None
     assert app.station.world.drives() == OFF
@@ -308,17 +247,6 @@ def test_a_port_in_use_ends_it_and_leaves_nothing(config: Config, tmp_path: Path
         socket.create_server(("127.0.0.1", port)),
         pytest.raises(LinkError, match=rf"^127\.0\.0\.1:{port}: cannot listen there: Address already in use"),
     ):
-        asyncio.run(app.run(asyncio.Event()))
-    assert not (tmp_path / "gs232").is_symlink(), "the link that was open already"
-    check_all_gone(app)
-
-
-def test_a_terminal_that_cannot_be_made_ends_it_and_leaves_nothing(config: Config, tmp_path: Path) -> None:
-    """The first link is open and has not had its first turn when the second one fails."""
-    (tmp_path / "mine").write_text("a file of the user's\n")
-    second = config.link[0].model_copy(update={"pty": str(tmp_path / "mine")})
-    app = App(config.model_copy(update={"link": [config.link[0], second]}))
-    with pytest.raises(LinkError, match="there is a file already"):
         asyncio.run(app.run(asyncio.Event()))
     assert not (tmp_path / "gs232").is_symlink(), "the link that was open already"
     check_all_gone(app)

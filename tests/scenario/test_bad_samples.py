@@ -83,21 +83,6 @@ def test_too_many_are_a_fault_and_the_motor_starts_once(mast: Mast, sensor: str)
     assert mast.world.relay_starts <= 4
 
 
-def test_after_a_second_of_good_readings_it_can_be_acknowledged(mast: Mast) -> None:
-    mast.run(1.0)
-    mast.world.inject("azimuth-pot-crackles:8")
-    mast.run(5.0)
-    assert said(mast) == ["bad readings"]
-    mast.order(Stop())
-    mast.run(0.5)
-    assert said(mast) == ["bad readings"]
-    mast.world.clear("azimuth-pot-crackles")
-    mast.run(1.5)
-    mast.order(Stop())
-    mast.run(0.1)
-    assert mast.status.faults == ()
-
-
 @pytest.mark.parametrize("each", [7, 16, 32])
 @pytest.mark.parametrize(
     ("motor", "fault"),

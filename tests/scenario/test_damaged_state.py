@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from hw.ports import Direction
 from rotator.assembly.kept_files import build_learnt
 from rotator.exchange.motor import Motor
-from rotator.store import compass, counts, knobs, learnt
+from rotator.store import counts, learnt
 from rotator.store.json_file import JsonFile
 from tests.rotors.rig import AZ, EL, KINDS, Box, Kind, configured
 from tests.search import examples
@@ -141,26 +141,6 @@ def test_any_counts(tmp_path: Path, data: st.DataObject) -> None:
         box.close()
 
 
-@SLOW
-@given(data=st.data())
-def test_any_full_scales_of_knobs(tmp_path: Path, data: st.DataObject) -> None:
-    file = knobs.KnobsFile(tmp_path / knobs.FILE_NAME)
-    file.save({AZ: 0.97, EL: 0.94})
-    path = tmp_path / knobs.FILE_NAME
-    path.write_bytes(data.draw(damaged(path.read_text())))
-    assert all(knobs.LEAST <= share <= knobs.MOST for share in knobs.KnobsFile(path).load().values())
-
-
-@SLOW
-@given(data=st.data())
-def test_any_corrections_of_the_compass(tmp_path: Path, data: st.DataObject) -> None:
-    path = tmp_path / "compass.json"
-    compass.CompassFile(path).save(bytes(range(compass.OFFSETS_COUNT)))
-    path.write_bytes(data.draw(damaged(path.read_text())))
-    kept = compass.CompassFile(path).load()
-    assert kept is None or len(kept) == compass.OFFSETS_COUNT
-
-
 def test_a_damaged_file_is_named_in_the_log_and_replaced_as_a_whole(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -172,13 +152,3 @@ def test_a_damaged_file_is_named_in_the_log_and_replaced_as_a_whole(
     assert f"{path}: azimuth: ignored, its motor is learnt anew: a speed in °/s is 1000.0" in caplog.text
     assert JsonFile(path, learnt.FORM, "").save({"axes": {}})
     assert "1000" not in path.read_text()
-
-
-def test_a_count_beyond_the_ends_is_not_believed(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    path = tmp_path / counts.FILE_NAME
-    counts.CountsFile(path, configured("u100").pulses.cams((AZ, EL))).home(AZ, 590.0)
-    box = Box(U100, counts=path)
-    box.run(LOOKED_S)
-    assert "590° is beyond its ends" in box.axis(AZ).uncalibrated
-    assert "azimuth must be homed" in caplog.text
-    box.close()

@@ -210,18 +210,6 @@ def test_a_fault_and_a_notice_are_said_once(mast: Mast, caplog: pytest.LogCaptur
     assert said[0].startswith("FAULT CUT MOTOR POWER! azimuth: turning with no relay on: ")
 
 
-def test_a_relay_that_is_welded_and_turns_its_axis_is_one_matter(mast: Mast) -> None:
-    mast.run(1.0)
-    mast.order(Jog(AZ, PLUS, 4.0))
-    mast.run(2.0)
-    mast.world.inject("azimuth-relay-welded-cw")
-    mast.run(5.0)
-    (fault,) = mast.status.faults
-    assert fault.name == "relay welded"
-    assert mast.status.azimuth.moving or mast.world.antenna()[0] > 30.0, "it still turns"
-    assert mast.status.azimuth.notices == ()
-
-
 def test_without_end_resistors_it_says_that_it_is_blind(caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(logging.INFO, "rotator")
     mast = Mast("[elevation]\nlowest_reading = 0.0\n")

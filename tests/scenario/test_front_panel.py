@@ -193,15 +193,6 @@ def test_jog_drives_while_a_switch_is_held(shack: Shack) -> None:
     assert shack.shafts[1] == pytest.approx(30.0 + 6.0 * 3.0, abs=3.0)
 
 
-def test_two_jog_switches_at_once_stop(shack: Shack) -> None:
-    shack.turn_mode(JOG)
-    shack.hands.throw("azimuth", +1)
-    shack.wait(1.0)
-    shack.hands.throw("elevation", -1)
-    shack.wait(1.0)
-    assert shack.world.drives() == (0, 0)
-
-
 def test_the_stop_button_stops_and_only_a_person_at_the_panel_ends_it(shack: Shack) -> None:
     shack.pc("W300 045")
     shack.wait(3.0)
@@ -218,15 +209,6 @@ def test_the_stop_button_stops_and_only_a_person_at_the_panel_ends_it(shack: Sha
     shack.turn_mode(AUTO)
     shack.pc("W300 045")
     assert shack.comes_to(300.0, 45.0)
-
-
-def test_a_broken_wire_to_the_stop_button_is_a_pressed_button(shack: Shack) -> None:
-    shack.pc("W300 045")
-    shack.wait(3.0)
-    shack.world.inject("panel-stop-wire-broken")
-    shack.wait(0.15)
-    assert shack.world.drives() == (0, 0)
-    assert shack.loop.status.latched
 
 
 def test_for_a_second_at_the_start_every_lamp_is_lit_and_every_meter_is_at_its_end() -> None:

@@ -40,22 +40,6 @@ def test_a_converter_that_goes_stops_the_motors(text: str, name: str) -> None:
         assert axis.fault.name == name
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (LINES.replace("7", "8"), "adc.elevation_channel = 8: must be"),
-        ("[adc]\nazimuth_channel = 5\n", "adc.azimuth_channel = 5: an ADS1115 has the inputs 0 to 3"),
-        (LINES + "reference_channel = 2\n", "adc.reference_channel: an MCP3208 measures against its VREF"),
-        (LINES + "so = 22\n", "GPIO 22 is used by adc.so and relays.azimuth_cw"),
-        (LINES + "select = 11\n", "GPIO 11 is used by adc.select and adc.sck"),
-    ],
-)
-def test_a_table_that_cannot_be(text: str, said: str) -> None:
-    with pytest.raises(ConfigError) as refused:
-        parse(text, "box")
-    assert [mistake.text.startswith(said) for mistake in refused.value.mistakes] == [True], refused.value.mistakes
-
-
 def test_beside_digital_pots_it_shares_the_kernels_wires() -> None:
     digipot = '[rotor]\ntype = "digipot"\n[azimuth.sensor]\nkind = "pot"\n[digipot]\nspi = "kernel"\n'
     config = parse(digipot + 'elevation.select = 26\n[adc]\nkind = "mcp3208"\nspi = "kernel"\nselect = 7\n', "box")

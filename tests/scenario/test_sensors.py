@@ -50,12 +50,6 @@ def test_a_magnet_for_azimuth_and_gravity_for_elevation() -> None:
     assert box.loop.status.faults == ()
 
 
-def test_over_the_top_by_gravity() -> None:
-    box = Box(rotor("relay-pot") + AS5600_AND_MPU6050)
-    box.aim(40.0, 130.0)
-    assert box.world.antenna()[1] == pytest.approx(130.0, abs=1.5)
-
-
 @pytest.mark.parametrize(
     ("fault", "axis"),
     [
@@ -118,8 +112,3 @@ def test_a_pot_corrects_the_model_of_a_control_box() -> None:
     box.aim(160.0, 20.0, seconds=8.0)
     assert box.loop.status.azimuth.angle_deg == pytest.approx(box.world.shafts()[0], abs=1.0)
     assert box.loop.status.azimuth.fault is None
-
-
-def test_without_a_pot_a_control_box_is_modelled_and_says_so() -> None:
-    box = Box(rotor("digipot"))
-    assert {box.loop.status.axis(axis).source for axis in Axis} == {AngleSource.MODELLED}

@@ -110,14 +110,6 @@ def test_a_storm_park_holds_and_is_driven_on_by_a_person_alone(tmp_path: Path) -
     assert not Run(tmp_path, again).moves(Aim(100.0, 60.0))
 
 
-def test_an_s_of_a_link_ends_with_the_program(tmp_path: Path) -> None:
-    run = Run(tmp_path)
-    run.order(Aim(200.0, 60.0))
-    run.order(Stop())
-    run.wait(2.0)
-    assert Run(tmp_path, run).moves(Aim(200.0, 60.0))
-
-
 def test_every_display_names_who_stopped_it(tmp_path: Path) -> None:
     run = Run(tmp_path)
     run.order(Stop(latch=True), CONSOLE)

@@ -8,9 +8,7 @@ from __future__ import annotations
 import asyncio
 import os
 import threading
-import time
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,21 +17,17 @@ from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.buses.gpio import holders
 from hw.ports import HardwareError
 from hw.safety.guard import GUARD_THREAD
-from rotator.assembly.station import Station
 from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.exchange.orders import Aim
 from rotator.links.wire import Wire
-from rotator.panel.lights import PanelOutputs
 from rotator.panel.thread import PANEL_THREADS
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
 from rotator.runtime.sensor_thread import SENSORS_THREAD
-from rotator.store.counts import FILE_NAME
 from tests.boxes import free_port
-from tests.rotors.rig import KINDS, Kind, configured
 
 PATIENCE_S = 60.0
 LOOK_S = 0.02
@@ -147,20 +141,6 @@ def lines_are_taken_away_after_the_loop(app: App) -> None:
     relays = Relays(app, take_away)
 
 
-class LampsFail:
-    """Panel outputs whose driver has a bug that shows when the lamps are switched off."""
-
-    def __init__(self, outputs: PanelOutputs) -> None:
-        self._outputs = outputs
-        self.start, self.check = outputs.start, outputs.check
-        self.broken = False
-
-    def duty(self, channel: int, share: float) -> None:
-        if self.broken:
-            raise TypeError("a bug in the lamps' driver")
-        self._outputs.duty(channel, share)
-
-
 class FailingLink:
     """A link whose driver has a bug that shows when it ends, or when `broken` is set."""
 
@@ -207,38 +187,6 @@ def test_a_part_that_cannot_be_stopped_skips_no_other(
     with pytest.raises((HardwareError, OSError, ZeroDivisionError), match=failure):
         asyncio.run(run_until_it_turns(app))
     check_everything_stopped(app)
-
-
-def test_nor_does_the_panel(config: Config) -> None:
-    station = Station(config, time.monotonic, time.sleep)
-    assert station.panel is not None
-    assert station.panel.outputs is not None
-    lamps = LampsFail(station.panel.outputs)
-    station.panel = replace(station.panel, outputs=lamps)
-    app = App(config, station=station)
-
-    def breaks() -> None:
-        lamps.broken = True
-
-    world = world_of(app)
-    Relays(app, breaks)
-    with pytest.raises(TypeError, match="a bug in the lamps' driver"):
-        asyncio.run(run_until_it_turns(app))
-    assert world.panel is not None
-    check_everything_stopped(app)
-
-
-def test_of_several_failures_the_first_is_raised_and_each_is_logged(
-    config: Config, caplog: pytest.LogCaptureFixture
-) -> None:
-    app = App(config)
-    app.links.insert(0, FailingLink())
-    lines_are_taken_away_after_the_loop(app)
-    with pytest.raises(HardwareError, match="Operation not permitted"):
-        asyncio.run(run_until_it_turns(app))
-    check_everything_stopped(app)
-    for part in ("the control thread", "a task", "failing", "closing the hardware"):
-        assert f"{part} failed: " in caplog.text
 
 
 def test_what_ended_the_box_comes_before_what_fails_while_it_stops(config: Config) -> None:
@@ -307,29 +255,3 @@ def test_everything_can_be_closed_twice(config: Config) -> None:
 
     asyncio.run(again())
     check_everything_stopped(app)
-
-
-def test_everything_can_be_closed_without_a_start(config: Config) -> None:
-    app = App(config)
-
-    async def close() -> None:
-        for _ in range(2):
-            for part in app._parts():
-                await part.close()
-
-    asyncio.run(close())
-    assert not holders(world_of(app).gpio, CHIP, PINS)
-
-
-@pytest.mark.parametrize("started", [True, False], ids=["started", "not started"])
-@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.profile)
-def test_a_rotor_of_any_kind_can_be_closed_twice(kind: Kind, tmp_path: Path, *, started: bool) -> None:
-    station = Station(configured(kind.profile), time.monotonic, time.sleep, kind.start_deg, counts=tmp_path / FILE_NAME)
-    if started:
-        station.rotor.start()
-    for _ in range(2):
-        station.rotor.close()
-    for _ in range(2):
-        station.close()
-    assert station.world is not None
-    assert not holders(station.world.gpio, CHIP, PINS)

@@ -18,19 +18,7 @@ from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioInputs, GpioOutputs, find_chip, holders, real_gpiod
 from hw.ports import HardwareError
 
-PI_3 = {"/dev/gpiochip0": "pinctrl-bcm2835", "/dev/gpiochip1": "raspberrypi-exp-gpio"}
 PI_4 = {"/dev/gpiochip0": "pinctrl-bcm2711", "/dev/gpiochip1": "raspberrypi-exp-gpio"}
-BRCMSTB = ("107d508500", "107d508520", "107d517c00", "107d517c20")
-PI_5_AT_FIRST = {f"/dev/gpiochip{number}": f"gpio-brcmstb@{at}" for number, at in enumerate(BRCMSTB)} | {
-    "/dev/gpiochip4": "pinctrl-rp1"
-}
-PI_5_KERNEL_6_6_47 = {f"/dev/gpiochip{number}": f"gpio-brcmstb@{at}" for number, at in enumerate(BRCMSTB, 10)} | {
-    "/dev/gpiochip0": "pinctrl-rp1"
-}
-PI_5_KERNEL_6_12_96 = {f"/dev/gpiochip{number}": f"gpio-brcmstb@{at}" for number, at in enumerate(BRCMSTB, 11)} | {
-    "/dev/gpiochip15": "pinctrl-rp1"
-}
-PC = {"/dev/gpiochip0": "INTC1055:00"}
 PINS = {"azimuth_cw": 22, "azimuth_ccw": 23}
 
 
@@ -43,39 +31,6 @@ def take(gpio: object, path: str = "/dev/gpiochip0", pins: dict[str, int] | None
 
 
 # --- the chip, by its label
-
-
-@pytest.mark.parametrize(
-    ("chips", "path"),
-    [
-        (PI_3, "/dev/gpiochip0"),
-        (PI_4, "/dev/gpiochip0"),
-        (PI_5_AT_FIRST, "/dev/gpiochip4"),
-        (PI_5_KERNEL_6_6_47, "/dev/gpiochip0"),
-        (PI_5_KERNEL_6_12_96, "/dev/gpiochip15"),
-    ],
-    ids=["pi-3", "pi-4", "pi-5", "pi-5-renumbered", "pi-5-renumbered-again"],
-)
-def test_the_header_is_found_by_its_label_not_its_number(chips: dict[str, str], path: str) -> None:
-    gpio = simulated(chips)
-    assert find_chip(gpio, paths=gpio.paths()) == path
-
-
-def test_the_whole_label_must_match() -> None:
-    gpio = simulated({"/dev/gpiochip0": "not-pinctrl-rp1", "/dev/gpiochip1": "pinctrl-rp1-too"})
-    seen = r"found /dev/gpiochip0 \(not-pinctrl-rp1\), /dev/gpiochip1 \(pinctrl-rp1-too\)"
-    with pytest.raises(HardwareError, match=f"no chip labelled .*; {seen}"):
-        find_chip(gpio, paths=gpio.paths())
-
-
-def test_another_label_may_be_asked_for() -> None:
-    gpio = simulated(PI_4)
-    assert find_chip(gpio, "raspberrypi-exp-gpio", gpio.paths()) == "/dev/gpiochip1"
-
-
-def test_a_chip_that_went_away_is_passed_over() -> None:
-    gpio = simulated(PI_5_KERNEL_6_6_47)
-    assert find_chip(gpio, paths=["/dev/gpiochip9", *gpio.paths()]) == "/dev/gpiochip0"
 
 
 def test_without_any_chip_it_says_so() -> None:
@@ -98,11 +53,6 @@ def test_without_permission_it_names_the_group() -> None:
         find_chip(Forbidden(), paths=["/dev/gpiochip0"])
 
 
-def test_without_permission_for_a_chip_named_in_the_file_it_names_the_group_too() -> None:
-    with pytest.raises(HardwareError, match="add the user to the group gpio"):
-        take(Forbidden())
-
-
 # --- the lines
 
 
@@ -114,15 +64,6 @@ def test_named_lines_switch_in_one_instant() -> None:
     lines.set({"azimuth_cw": True, "azimuth_ccw": True})
     lines.set({"azimuth_cw": False})
     assert instants == [{22: True, 23: True}, {22: False}]
-
-
-def test_closing_leaves_what_was_off_off() -> None:
-    gpio = simulated(PI_4)
-    lines = take(gpio)
-    lines.set({"azimuth_cw": True})
-    lines.set({"azimuth_cw": False})
-    lines.close()
-    assert not gpio.level(22)
 
 
 def test_lines_that_were_released_cannot_be_switched() -> None:
@@ -140,13 +81,6 @@ def test_a_switch_to_ground_reads_closed_and_an_open_one_is_pulled_up() -> None:
     gpio.drive_input(10, False)
     inputs = GpioInputs(gpio, "/dev/gpiochip0", {"msb": 10, "lsb": 9}, consumer="test")
     assert inputs.read() == {"msb": True, "lsb": False}
-
-
-def test_released_inputs_cannot_be_read() -> None:
-    inputs = GpioInputs(simulated(PI_4), "/dev/gpiochip0", {"msb": 10, "lsb": 9}, consumer="test")
-    inputs.close()
-    with pytest.raises(HardwareError, match="cannot read msb, lsb: the lines have been released"):
-        inputs.read()
 
 
 def test_a_chip_that_is_not_there_is_a_sentence() -> None:
@@ -180,11 +114,6 @@ def test_holders_that_cannot_be_read_are_an_error(gpio: object, path: str, offse
 
 
 # --- the package itself
-
-
-def test_the_real_package_is_at_hand() -> None:
-    pytest.importorskip("gpiod")
-    assert callable(real_gpiod().request_lines)
 
 
 def test_without_the_package_it_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:

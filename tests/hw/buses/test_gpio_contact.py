@@ -11,7 +11,7 @@ import pytest
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioContact, LinesBusyError
-from hw.ports import ContactChange, HardwareError
+from hw.ports import HardwareError
 
 PATH = "/dev/gpiochip0"
 PIN = 17
@@ -62,13 +62,6 @@ def test_with_a_resistor_outside_the_pi_s_own_stays_off(gpio: SimGpio, clock: Si
     assert not contact.closed()
 
 
-def test_bounce_is_no_change(gpio: SimGpio, clock: SimClock) -> None:
-    contact = GpioContact(gpio, PATH, PIN, consumer="test", debounce_s=0.02)
-    switch(gpio, clock, False, True, False, True, False, every_s=0.001)
-    clock.sleep(0.1)
-    assert told(contact) == [(0.024, True, 0)]
-
-
 def test_a_quarter_of_a_minute_of_chatter_waits_for_a_late_reader(gpio: SimGpio, clock: SimClock) -> None:
     contact = GpioContact(gpio, PATH, PIN, consumer="test")
     switch(gpio, clock, *[False, True] * 350, every_s=0.021)
@@ -91,11 +84,6 @@ def test_a_busy_line_is_named(gpio: SimGpio) -> None:
         GpioContact(gpio, PATH, PIN, consumer="test")
 
 
-def test_closed_it_lets_go(gpio: SimGpio) -> None:
-    GpioContact(gpio, PATH, PIN, consumer="test").close()
-    GpioContact(gpio, PATH, PIN, consumer="test")
-
-
 class Unplugged:
     """The gpiod package on a chip that goes away (a USB GPIO board): Linux answers ENODEV."""
 
@@ -115,27 +103,3 @@ def test_a_chip_that_goes_away_is_a_sentence() -> None:
         contact.closed()
     with pytest.raises(HardwareError, match="GPIO: cannot read GPIO17: No such device"):
         contact.changes()
-
-
-class Waits:
-    """The gpiod package on a contact at rest: a question for its changes takes as long as it is asked to wait."""
-
-    def __init__(self) -> None:
-        self.waited_s = 0.0
-
-    def request_lines(self, path: str, **_wanted: object) -> Waits:
-        return self
-
-    def wait_edge_events(self, timeout: float) -> bool:
-        self.waited_s += timeout
-        return False
-
-
-def test_a_contact_at_rest_keeps_the_loop_waiting_for_no_time() -> None:
-    api = Waits()
-    assert GpioContact(api, PATH, PIN, consumer="test").changes() == []
-    assert api.waited_s == 0
-
-
-def test_a_change_is_a_value() -> None:
-    assert ContactChange(1.0, closed=True) == ContactChange(1.0, closed=True, lost=0)

@@ -62,26 +62,9 @@ def test_a_write_reaches_the_chip_in_one_piece(bus: SmbusI2C, chip: Memory) -> N
     assert chip.log == [b"\x01\xc3\xe3"]
 
 
-def test_a_row_of_an_lcd_fits_in_one_write(bus: SmbusI2C, chip: Memory) -> None:
-    # an SMBus block ends at 32 bytes, a plain I2C message does not
-    bus.write(ADDRESS, bytes(range(68)))
-    assert chip.log == [bytes(range(68))]
-
-
-def test_a_read_follows_its_pointer_in_the_same_transfer(bus: SmbusI2C, chip: Memory) -> None:
-    assert bus.write_read(ADDRESS, b"\x01", 2) == b"\x85\x83"
-    assert chip.log == [b"\x01", 2]
-
-
 def test_several_registers_are_read_in_order_in_one_transfer(bus: SmbusI2C, chip: Memory) -> None:
     assert bus.read_each(ADDRESS, (1, 0), 2) == [b"\x85\x83", b"\x85\x83"]
     assert chip.log == [b"\x01", 2, b"\x00", 2]
-
-
-def test_bytes_come_in_the_order_of_the_wire(bus: SmbusI2C, chip: Memory) -> None:
-    # smbus2's read_word_data would make 0x1027 of these
-    chip.answer = b"\x27\x10"
-    assert int.from_bytes(bus.write_read(ADDRESS, b"\x00", 2), "big") == 0x2710
 
 
 @pytest.mark.parametrize("way", ["empty", "gone"])

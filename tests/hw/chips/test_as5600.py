@@ -10,7 +10,7 @@ from firmware_sim.chips.as5600 import MagnetFault
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.as5600 import ADDRESS, As5600
-from hw.ports import AngleSensor, AngleSource, HardwareError
+from hw.ports import HardwareError
 
 STEP = 1 / 4096
 
@@ -34,20 +34,10 @@ def bench() -> Bench:
     return Bench()
 
 
-def test_it_is_an_angle_sensor_that_measures(bench: Bench) -> None:
-    sensor: AngleSensor = bench.driver()
-    assert sensor.source is AngleSource.MEASURED
-
-
 @pytest.mark.parametrize("turn", [0.0, STEP, 0.25, 0.5, 0.75, 1.0 - STEP])
 def test_the_reading_is_the_share_of_a_turn(bench: Bench, turn: float) -> None:
     bench.turn = turn
     assert bench.driver().read() == turn
-
-
-def test_the_large_one_has_another_address() -> None:
-    as5600l = 0x40
-    assert Bench(as5600l).driver(as5600l).read() == pytest.approx(0.3, abs=STEP)
 
 
 def test_a_range_across_the_chips_zero_is_read_without_a_jump(bench: Bench) -> None:
@@ -63,17 +53,6 @@ def test_a_range_across_the_chips_zero_is_read_without_a_jump(bench: Bench) -> N
 def test_a_range_burned_into_the_chip_changes_nothing(bench: Bench) -> None:
     bench.chip.write(bytes.fromhex("01 04 00 08 00"))
     assert bench.driver().read() == pytest.approx(0.3, abs=STEP)
-
-
-def test_with_the_chips_noise_a_reading_is_within_a_tenth_of_a_degree() -> None:
-    bench = Bench(noise_deg_rms=0.015)
-    sensor = bench.driver()
-    assert max(abs(sensor.read() - 0.3) for _ in range(200)) * 360.0 < 0.12
-
-
-def test_a_reading_leaves_a_20_hz_loop_its_time(bench: Bench) -> None:
-    bench.driver().read()
-    assert bench.clock() < 1e-3
 
 
 # --- what goes wrong

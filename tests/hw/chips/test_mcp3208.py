@@ -59,20 +59,6 @@ def test_every_input_reads_its_volts(kind: str) -> None:
     assert bench.chip.conversions == 8
 
 
-@pytest.mark.parametrize("kind", ["lines", "kernel"])
-@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
-def test_a_reading_is_a_share_of_vref(kind: str, share: float) -> None:
-    bench = Bench()
-    bench.chip.inputs[3] = lambda: share * VREF_V
-    assert bench.driver(kind).volts(3) == pytest.approx(share * VREF_V, abs=VREF_V / 4096)
-
-
-@pytest.mark.parametrize("channel", [-1, 8])
-def test_an_input_that_the_chip_has_not(channel: int) -> None:
-    with pytest.raises(ValueError, match="0 to 7"):
-        Bench().driver("kernel").volts(channel)
-
-
 def test_on_lines_a_chip_that_is_gone_does_not_answer_and_comes_back() -> None:
     bench = Bench()
     driver = bench.driver("lines")
@@ -111,11 +97,3 @@ def test_a_computer_that_is_always_too_slow() -> None:
     bench.chip.inputs[0] = lambda: bench.clock.sleep(2 * SLOWEST_FRAME_S) or 1.1  # type: ignore[func-returns-value]
     with pytest.raises(HardwareError, match=r'adc\.spi = "kernel"'):
         bench.driver("lines").volts(0)
-
-
-def test_lines_without_an_answer_line_cannot_read() -> None:
-    bench = Bench()
-    selects = GpioOutputs(bench.gpio, CHIP, {"select": SELECT}, consumer="rotator-spi-select", active_low=True)
-    wires = GpioOutputs(bench.gpio, CHIP, {SCK: SCK_PIN, SI: SI_PIN}, consumer="rotator-spi")
-    with pytest.raises(HardwareError, match="no line is wired to its output"):
-        Mcp3208(LineSpi(selects, wires), "select", VREF_V).volts(0)

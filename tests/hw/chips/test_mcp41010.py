@@ -65,18 +65,6 @@ def test_taking_the_lines_moves_no_wiper() -> None:
     assert bench.gpio.level(SELECTS["azimuth"])
 
 
-def test_the_lines_rest_with_the_clock_low_and_no_chip_selected() -> None:
-    bench = Bench()
-    Mcp41010(bench.lines(), "azimuth").write(0xFF)
-    assert (bench.gpio.level(SCK_PIN), bench.gpio.level(8), bench.gpio.level(7)) == (False, True, True)
-
-
-@pytest.mark.parametrize("step", [-1, 256])
-def test_a_step_that_the_wiper_has_not(step: int) -> None:
-    with pytest.raises(ValueError, match="0 to 255"):
-        Mcp41010(Bench().kernel(), "azimuth").write(step)
-
-
 def test_a_kernel_without_spi() -> None:
     with pytest.raises(HardwareError, match=r"there is no /dev/spidev0.0: switch SPI on"):
         KernelSpi(SimSpidev({}), 0, {"azimuth": 0})

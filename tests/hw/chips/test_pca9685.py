@@ -59,15 +59,6 @@ def test_an_oscillator_of_27_mhz_makes_right_pulses_when_it_is_known() -> None:
     assert bench.chip.pulse_us(0) == pytest.approx(1500 * 25 / 27, abs=5)
 
 
-@pytest.mark.parametrize(
-    ("share", "high"), [(-0.1, 0.0), (0.0, 0.0), (0.25, 0.25), (0.5, 0.5), (0.99999, 1.0), (1.0, 1.0), (3.0, 1.0)]
-)
-def test_a_share_of_full_for_a_meter(share: float, high: float) -> None:
-    bench = Bench()
-    bench.driver(frequency_hz=1000).duty(7, share)
-    assert bench.chip.high_share(7) == high
-
-
 def test_off() -> None:
     bench = Bench()
     driver = bench.driver()
@@ -91,28 +82,3 @@ def test_a_chip_that_was_reset_is_noticed() -> None:
     bench.chip.supply = True
     with pytest.raises(HardwareError, match="PCA9685 at 0x40: it has been reset"):
         driver.check()
-
-
-@pytest.mark.parametrize("frequency_hz", [20, 2000])
-def test_a_frequency_that_the_chip_cannot_make(frequency_hz: float) -> None:
-    with pytest.raises(HardwareError, match="cannot make"):
-        Bench().driver(frequency_hz=frequency_hz)
-
-
-def test_the_possible_frequencies_follow_from_the_oscillator() -> None:
-    with pytest.raises(HardwareError, match="only 24 to 1526 Hz"):
-        Bench().driver(frequency_hz=2000)
-    with pytest.raises(HardwareError, match="only 26 to 1648 Hz"):
-        Bench().driver(frequency_hz=2000, osc_hz=27e6)
-
-
-@pytest.mark.parametrize("width_us", [0, -5, 20_000])
-def test_a_pulse_that_does_not_fit(width_us: float) -> None:
-    with pytest.raises(HardwareError, match="must be longer than 0 and shorter than the period"):
-        Bench().driver().pulse(0, width_us)
-
-
-@pytest.mark.parametrize("channel", [-1, 16])
-def test_an_output_that_the_chip_has_not(channel: int) -> None:
-    with pytest.raises(HardwareError, match="they are 0 to 15"):
-        Bench().driver().pulse(channel, 1500)

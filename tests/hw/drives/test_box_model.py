@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hw.drives.box_model import FAST, SLOW, TIGHT_DEG, BoxModel, RestLead
+from hw.drives.box_model import FAST, SLOW, BoxModel, RestLead
 
 SPEED_DPS, BAND_DEG = 6.0, 2.0
 
@@ -40,13 +40,6 @@ def test_a_motor_that_turns_goes_on_into_the_dead_band() -> None:
     assert after(box, 5.0, 107.0) == pytest.approx(106.4), "at rest now"
 
 
-def test_no_time_changes_nothing() -> None:
-    box = model()
-    box.advance(160.0, 1.0, 1.5, 0.0)
-    box.advance(160.0, 1.0, 1.5, -1.0)
-    assert box.angle_deg == 100.0
-
-
 def test_the_angle_is_known_when_the_slowest_motor_must_have_come_from_the_furthest_end() -> None:
     box = model(100.0, 0.0, 450.0)
     furthest_s = (450.0 - 101.0) / (SPEED_DPS * SLOW)
@@ -65,16 +58,6 @@ def test_measured_it_is_known_at_once_and_stays_so() -> None:
     after(box, 1.0, 222.0)
     assert (box.angle_deg, box.known) == (222.0, True)
     assert after(box, 1.0, 300.0) == pytest.approx(228.0)
-
-
-def test_bounds_that_have_met_make_the_model_exact() -> None:
-    """A box without a dead band: from both ends the rotor comes to the same place."""
-    box = model(100.0, 90.0, 110.0)
-    for _ in range(200):
-        box.advance(100.0, 0.0, 0.0, 0.05)
-    assert box.known
-    assert box.angle_deg == pytest.approx(100.0, abs=TIGHT_DEG)
-    assert box.way(100.5, 0, 1.5) == 0, "no side on which it may still be"
 
 
 # --- which way to the target
@@ -124,49 +107,6 @@ class Bench:
             self.lead.seen(angle_deg, self.now_s)
 
 
-def test_before_anything_was_seen_the_lead_is_the_file_s() -> None:
-    assert Bench().lead.deg(1) == Bench().lead.deg(-1) == 1.5
-    assert RestLead(dead_band_deg=1.0, coast_deg=3.0).deg(1) == 0.0, "never less than nothing"
-
-
-@pytest.mark.parametrize(("way", "from_deg", "rests_deg"), [(1, 60.0, 97.5), (-1, 140.0, 102.5)])
-def test_half_of_what_a_rest_shows_is_learnt_for_that_direction_alone(
-    way: int, from_deg: float, rests_deg: float
-) -> None:
-    bench = Bench()
-    bench.moved(from_deg, rests_deg, 100.0, way)
-    assert bench.lead.deg(way) == pytest.approx(1.5 + 0.5 * (2.5 - 1.5))
-    assert bench.lead.deg(-way) == 1.5
-    bench.rests(rests_deg, 5.0)
-    assert bench.lead.deg(way) == pytest.approx(2.0), "one rest is learnt from once"
-
-
-@pytest.mark.parametrize(
-    ("short_deg", "learnt_deg"),
-    [(4.0, 2.75), (4.1, 1.5), (0.0, 0.75), (-0.6, 0.45), (-0.7, 1.5), (-3.0, 1.5), (10.0, 1.5)],
-)
-def test_a_stalled_motor_teaches_nothing(short_deg: float, learnt_deg: float) -> None:
-    """It rests at most twice the dead band short of the wiper, or its coast beyond it."""
-    bench = Bench()
-    bench.moved(60.0, 100.0 - short_deg, 100.0, 1)
-    assert bench.lead.deg(1) == pytest.approx(learnt_deg)
-
-
-def test_a_lead_never_falls_below_nothing() -> None:
-    bench = Bench()
-    for turn in range(8):
-        bench.moved(60.0 + turn, 100.5, 100.0 + turn / 1000, 1)
-        bench.lead.ordered(60.0, -1, bench.now_s)
-    assert bench.lead.deg(1) == 0.0
-
-
-def test_only_a_rest_after_three_degrees_shows_the_dead_band() -> None:
-    for from_deg, learns in ((97.5 - 2.9, False), (97.5 - 3.1, True)):
-        bench = Bench()
-        bench.moved(from_deg, 97.5, 100.0, 1)
-        assert (bench.lead.deg(1) != 1.5) is learns
-
-
 def test_a_new_target_in_the_same_direction_goes_on_with_the_same_move() -> None:
     bench = Bench()
     bench.lead.ordered(98.0, 1, bench.now_s)
@@ -178,24 +118,3 @@ def test_a_new_target_in_the_same_direction_goes_on_with_the_same_move() -> None
     bench.now_s += 0.5
     bench.rests(97.5)
     assert bench.lead.deg(1) == pytest.approx(2.0), "it came from 94°, 3.5° in all"
-
-
-def test_the_other_direction_begins_a_new_move() -> None:
-    bench = Bench()
-    bench.moved(60.0, 97.5, 100.0, 1)
-    bench.lead.ordered(95.0, -1, bench.now_s)
-    bench.rests(96.6)
-    assert bench.lead.deg(-1) == 1.5, "0.9° are no such turn"
-
-
-def test_a_wiper_set_to_where_the_rotor_is_teaches_nothing() -> None:
-    bench = Bench()
-    bench.lead.seen(60.0, bench.now_s)
-    bench.lead.ordered(100.0, 1, bench.now_s)
-    bench.lead.seen(60.0, bench.now_s)
-    bench.lead.forget()
-    bench.rests(97.5)
-    assert bench.lead.deg(1) == 1.5
-    bench.lead.ordered(97.5, 0, bench.now_s)
-    bench.rests(97.5)
-    assert bench.lead.deg(0) == 1.5, "and a wiper that stays is no move"

@@ -51,24 +51,6 @@ def test_the_wiper_leads_by_the_dead_band_less_the_coast_in_the_direction_of_the
     assert bench.box.angle_deg == 30.0
 
 
-@pytest.mark.parametrize(("back_deg", "wiper_deg"), [(0.75, 40.75), (1.25, 37.25)])
-def test_less_than_a_degree_back_reverses_no_motor_also_with_fine_steps(back_deg: float, wiper_deg: float) -> None:
-    bench = Bench()
-    bench.order(40.0, 20.0)
-    assert bench.order(40.0 - back_deg, 1.0) == wiper_deg
-
-
-def test_without_supply_the_model_stands() -> None:
-    bench = Bench()
-    bench.box.order(40.0)
-    bench.box.advance(60.0, powered=False)
-    assert bench.box.angle_deg == 20.0
-    bench.box.advance(61.0, powered=True)
-    assert bench.box.angle_deg == 24.0, "the time without supply does not count"
-    bench.box.advance(60.0, powered=True)
-    assert bench.box.angle_deg == 24.0, "nor does time that goes back"
-
-
 def test_a_hold_sends_the_angle_where_it_is_once() -> None:
     bench = Bench()
     bench.box.hold()
@@ -96,23 +78,6 @@ def test_the_first_measurement_after_an_order_corrects_a_hold_and_no_later_one_d
     bench.box.found(33.0, bench.now_s)
     bench.box.hold()
     assert bench.bus.steps[-1] / 4 == 33.0
-
-
-@pytest.mark.parametrize(
-    ("from_deg", "target_deg", "rests_deg", "way"), [(20.0, 40.0, 38.5, 1), (50.0, 30.0, 31.5, -1)]
-)
-def test_a_rest_that_was_measured_moves_wiper_and_model(
-    from_deg: float, target_deg: float, rests_deg: float, way: int
-) -> None:
-    bench = Bench()
-    bench.box.found(from_deg, bench.now_s)
-    bench.order(target_deg, 0.0)
-    for angle_deg in (from_deg, *[rests_deg] * 5):
-        bench.now_s += 0.5
-        bench.box.found(angle_deg, bench.now_s)
-    assert bench.box.lead.deg(way) == pytest.approx(1.5 + (3.0 - 1.5) / 2)
-    assert bench.order(target_deg + way * 10.0, 20.0) == target_deg + way * (10.0 + 2.25)
-    assert bench.box.angle_deg == pytest.approx(target_deg + way * 10.0)
 
 
 def test_a_step_that_failed_is_sent_again_and_the_top_is_the_chip_s_last_step() -> None:

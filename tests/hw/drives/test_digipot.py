@@ -95,23 +95,6 @@ def test_with_the_relay_nothing_turns_before_the_first_aim() -> None:
     assert not bench.rotor.gpio.level(ENABLE_PIN)
 
 
-def test_the_relay_closes_when_both_chips_say_where_the_rotor_is() -> None:
-    bench = Bench()
-    steps: list[tuple[int, int]] = []
-
-    def note(_at_s: float, changes: object) -> None:
-        if ENABLE_PIN in changes:  # type: ignore[operator]
-            steps.append((bench.rotor.azimuth.chip.step, bench.rotor.elevation.chip.step))
-
-    bench.rotor.gpio.on_edges.append(note)
-    bench.follow(AZ, 100.0, 1.0)
-    assert steps == [
-        (72, 21)
-    ]  # 100° led by the band less the coast, and the 30° where the other one is, at 1.41° a step
-    bench.follow(AZ, 100.0, 20.0)
-    assert bench.antenna(EL) == pytest.approx(30.0, abs=0.1), "the other axis stays"
-
-
 # --- motion
 
 
@@ -149,12 +132,6 @@ def test_stop_is_where_it_is(stop: str) -> None:
     assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.5)
 
 
-def test_only_changes_are_sent_and_all_of_it_once_a_second() -> None:
-    bench = Bench()
-    bench.follow(AZ, 100.0, 10.0)
-    assert bench.rotor.azimuth.chip.frames == pytest.approx(2 + 10, abs=1)
-
-
 def test_a_chip_that_forgot_its_step_gets_it_again() -> None:
     bench = Bench()
     bench.follow(AZ, 42.0, 2.0)
@@ -163,12 +140,6 @@ def test_a_chip_that_forgot_its_step_gets_it_again() -> None:
     bench.clock.sleep(5.0)
     assert bench.antenna(AZ) == pytest.approx(42.0, abs=BAND_DEG + 1.0)
     assert bench.rotor.azimuth.chip.step != 0x80
-
-
-def test_the_resolution() -> None:
-    drive = Bench().drive
-    assert drive.resolution_deg(AZ) == pytest.approx(1.41, abs=0.01)
-    assert drive.resolution_deg(EL) == pytest.approx(1.41, abs=0.01)
 
 
 def test_an_angle_outside_the_calibration_is_refused_and_moves_nothing() -> None:
@@ -196,11 +167,6 @@ def test_chips_that_forgot_their_steps_get_them_before_the_supply_comes_back() -
     bench.rotor.inject("azimuth-chip-dips")
     bench.drive.aim(EL, 30.0, 0.0, bench.clock() + 0.25)
     assert bench.rotor.azimuth.chip.step in (28, 29)
-
-
-def test_release_without_a_relay_says_so() -> None:
-    with pytest.raises(HardwareError, match="no relay is wired"):
-        Bench(relay=False).drive.release()
 
 
 # --- what a model does not know
@@ -246,14 +212,6 @@ def watched(bench: Bench, seconds: float, *, aim_deg: float | None = None) -> No
         bench.drive.found(AZ, bench.antenna(AZ))
 
 
-def test_a_measured_box_that_does_not_hear_its_chip_loses_its_supply_after_4_degrees() -> None:
-    bench = Bench()
-    bench.rotor.inject("azimuth-select-broken")
-    watched(bench, 0.3, aim_deg=20.0)
-    watched(bench, 10.0)
-    assert bench.antenna(AZ) == pytest.approx(40.0, abs=6.0)
-
-
 def test_then_neither_an_aim_nor_a_stop_of_either_box_gives_it_supply_again_before_it_is_restored() -> None:
     bench = Bench()
     bench.rotor.inject("azimuth-select-broken")
@@ -272,55 +230,12 @@ def test_then_neither_an_aim_nor_a_stop_of_either_box_gives_it_supply_again_befo
     assert bench.antenna(EL) == pytest.approx(80.0, abs=BAND_DEG)
 
 
-@pytest.mark.parametrize("stands_deg", [10.0, 30.0, 80.0])
-def test_no_box_has_supply_before_each_sensor_has_shown_where_its_axis_is(stands_deg: float) -> None:
-    """Else the elevation, without an order, would turn to where the file says that it stands."""
-    bench = Bench()
-    motor = bench.rotor.elevation.motor
-    motor.shaft_deg = motor.boom_deg = stands_deg
-    bench.drive.measured(EL)
-    bench.follow(AZ, 90.0, 3.0)
-    assert bench.rotor.antenna() == (40.0, stands_deg)
-    assert bench.drive.unseen_s() == pytest.approx(3.0, abs=0.1)
-    bench.drive.found(EL, stands_deg)
-    assert bench.drive.unseen_s() == 0.0
-    bench.follow(AZ, 90.0, 30.0)
-    assert bench.antenna(AZ) == pytest.approx(90.0, abs=BAND_DEG)
-    assert bench.antenna(EL) == pytest.approx(stands_deg, abs=BAND_DEG)
-
-
 def test_without_a_relay_the_boxes_have_supply_and_need_not_wait_for_a_sensor() -> None:
     bench = Bench(relay=False)
     bench.drive.measured(EL)
     assert bench.drive.unseen_s() == 0.0
     bench.follow(AZ, 90.0, 40.0)
     assert bench.antenna(AZ) == pytest.approx(90.0, abs=BAND_DEG)
-
-
-def test_a_cut_without_a_relay_returns_false() -> None:
-    bench = Bench(relay=False)
-    assert not bench.drive.cut()
-    bench.follow(AZ, 100.0, 20.0)
-    assert bench.antenna(AZ) == pytest.approx(100.0, abs=BAND_DEG)
-
-
-def test_a_measured_box_whose_chip_forgot_turns_back_before_the_next_refresh() -> None:
-    bench = Bench()
-    watched(bench, 15.0, aim_deg=100.0)
-    bench.clock.sleep(0.05)
-    bench.rotor.inject("azimuth-chip-dips")
-    watched(bench, 0.6, aim_deg=100.0)
-    assert bench.rotor.azimuth.chip.step == pytest.approx(71, abs=3)
-    watched(bench, 5.0, aim_deg=100.0)
-    assert bench.antenna(AZ) == pytest.approx(100.0, abs=BAND_DEG)
-
-
-@pytest.mark.parametrize("steps", [((0.0, 0.0), (360.0, 300.0)), ((0.0, -5.0), (360.0, 255.0))])
-def test_impossible_steps_are_refused(steps: tuple[tuple[float, float], ...]) -> None:
-    bench = Bench()
-    chip = Mcp41010(bench.kernel(), "azimuth")
-    with pytest.raises(HardwareError, match="0 to 256"):
-        DigipotDrive((chip, BoxSpec(steps, 0.0)), (chip, BoxSpec(FULL_CIRCLE, 0.0)), bench.clock)
 
 
 class FailingEnable:

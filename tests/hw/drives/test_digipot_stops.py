@@ -16,7 +16,6 @@ from tests.search import examples
 
 COAST_DEG = 1.0 + 0.5
 """What the motor coasts, and the play of the gear."""
-DECIDED_S = 0.1
 
 
 def bench_at(true_deg: float, assumed_deg: float, elevation_deg: float = 30.0) -> Bench:
@@ -75,15 +74,6 @@ def test_one_axis_stopped_early_stays_although_the_other_is_ordered_on(true_deg:
     bench.drive.hold(EL)
     bench.follow(EL, 60.0, 20.0)
     assert bench.antenna(EL) == pytest.approx(60.0, abs=1.5), "a new order moves it again"
-
-
-@pytest.mark.parametrize("true_deg", [0.0, 80.0, 300.0])
-def test_without_a_relay_an_order_to_one_axis_leaves_the_other_chip_alone(true_deg: float) -> None:
-    bench = Bench(relay=False)
-    step, frames = bench.rotor.elevation.chip.step, bench.rotor.elevation.chip.frames
-    bench.follow(AZ, true_deg, 5.0)
-    bench.drive.off()
-    assert (bench.rotor.elevation.chip.step, bench.rotor.elevation.chip.frames) == (step, frames)
 
 
 def test_when_a_full_travel_is_over_a_stop_needs_no_relay() -> None:
@@ -172,26 +162,6 @@ def test_the_dead_band_is_learnt_for_each_direction(band_deg: float) -> None:
         measured(bench, AZ, 100.0, 35.0)
     assert up_deg == pytest.approx(200.0, abs=0.75)
     assert bench.rotor.shafts()[0] == pytest.approx(100.0, abs=0.75)
-
-
-def test_what_was_learnt_is_the_model_s_rest_too_when_the_sensor_is_silent() -> None:
-    bench = Bench(box_band_deg=3.0)
-    for _ in range(4):
-        measured(bench, AZ, 200.0, 35.0)
-        measured(bench, AZ, 100.0, 35.0)
-    for target_deg in (200.0, 100.0):
-        bench.follow(AZ, target_deg, 35.0)
-        assert bench.drive.angle_deg(AZ) == pytest.approx(bench.rotor.shafts()[0], abs=0.3)
-
-
-def test_a_motor_that_stalls_teaches_nothing() -> None:
-    bench = Bench()
-    measured(bench, AZ, 100.0, 5.0)
-    bench.rotor.inject("azimuth-motor-stalled")
-    measured(bench, AZ, 100.0, 10.0)
-    bench.rotor.clear("azimuth-motor-stalled")
-    measured(bench, AZ, 100.0, 20.0)
-    assert bench.rotor.shafts()[0] == pytest.approx(100.0, abs=RESTS_WITHIN_DEG)
 
 
 def test_a_measured_rotor_is_stopped_by_the_wiper_from_the_first_order_on() -> None:

@@ -104,27 +104,6 @@ def test_once_a_second_both_chips_get_their_step_again_at_any_moment_of_the_call
         assert bench.said() == ["azimuth 40", "elevation 30"]
 
 
-def test_each_reading_of_the_model_brings_it_up_to_date() -> None:
-    bench = Bench()
-    bench.aim(AZ, 60.0)
-    for angle_deg in (45.0, 50.0, 55.0, 60.0, 60.0):
-        bench.clock.sleep(1.0)
-        assert bench.drive.angle_deg(AZ) == pytest.approx(angle_deg)
-        assert bench.drive.angle_deg(EL) == 30.0
-
-
-def test_without_supply_nothing_is_refreshed() -> None:
-    bench = Bench()
-    bench.aim(AZ, 60.0)
-    bench.drive.release()
-    assert bench.drive.due_s() is None
-    bench.said()
-    bench.drive.enforce(110.0)
-    assert bench.said() == []
-    bench.clock.sleep(10.0)
-    assert bench.drive.angle_deg(AZ) == 40.0, "the model stands too"
-
-
 @pytest.mark.parametrize("how", ["hold", "expiry", "off", "an aim that has run out"])
 def test_a_box_that_may_stand_anywhere_is_stopped_by_its_supply(how: str) -> None:
     bench = Bench(known=False)
@@ -141,14 +120,6 @@ def test_a_box_that_may_stand_anywhere_is_stopped_by_its_supply(how: str) -> Non
             bench.aim(AZ, 60.0, 0.0)
     assert bench.said()[0] == "supply off"
     assert bench.drive.due_s() is None
-
-
-def test_a_box_that_was_not_ordered_is_stopped_by_nothing() -> None:
-    bench = Bench(known=False)
-    bench.aim(AZ, 60.0)
-    bench.said()
-    bench.drive.hold(EL)
-    assert "supply off" not in bench.said()
 
 
 def test_the_other_box_ignores_its_orders_after_such_a_stop_until_its_own() -> None:

@@ -34,15 +34,6 @@ def test_off_in_the_very_call_that_takes_the_lines(active_low: bool, pins: tuple
     assert len(gpio.edges) == (0 if active_low == (pins[0] < 9) else 4)
 
 
-@pytest.mark.parametrize("active_low", [False, True])
-def test_each_direction_has_its_relay(active_low: bool) -> None:
-    for (axis, way), name in RELAYS.items():
-        bench = Bench(active_low=active_low)
-        assert bench.drive(axis, way) is way
-        assert bench.on() == {name}
-        assert bench.bank.driven()[axis] is way
-
-
 # --- a reversal waits out its dead time
 
 
@@ -58,29 +49,6 @@ def test_a_reversal_opens_at_once_and_closes_after_the_dead_time(axis: Axis, way
     bench.clock.sleep(0.001)
     assert bench.drive(axis, Direction(-way)) == -way
     assert bench.on() == {RELAYS[axis, Direction(-way)]}
-
-
-def test_the_dead_time_counts_from_the_moment_the_relay_opened() -> None:
-    bench = Bench()
-    bench.drive(AZ, PLUS, 0.2)
-    bench.clock.sleep(0.6)  # 0.4 s after its command ended
-    assert bench.drive(AZ, MINUS) is OFF
-    bench.clock.sleep(0.101)
-    assert bench.drive(AZ, MINUS) is MINUS
-
-
-def test_everything_off_is_a_stop_like_any_other() -> None:
-    bench = Bench()
-    bench.drive(AZ, PLUS)
-    bench.bank.off()
-    assert bench.drive(AZ, MINUS) is OFF
-
-
-def test_the_same_direction_goes_on_at_once() -> None:
-    bench = Bench()
-    bench.drive(AZ, PLUS)
-    bench.drive(AZ, OFF)
-    assert bench.drive(AZ, PLUS) is PLUS
 
 
 def test_one_axis_does_not_wait_for_the_other() -> None:
@@ -130,13 +98,6 @@ def test_a_reversal_waits_for_the_dead_time_and_for_the_other_motor() -> None:
     bench.clock.sleep(DEAD_TIME_S)
     assert bench.on() == set()
     assert bench.drive(AZ, MINUS) is MINUS
-
-
-def test_otherwise_both_run_together() -> None:
-    bench = Bench()
-    bench.drive(AZ, PLUS)
-    assert bench.drive(EL, MINUS) is MINUS
-    assert bench.on() == {"azimuth_cw", "elevation_down"}
 
 
 # --- everything off

@@ -27,28 +27,12 @@ def test_without_renewal_the_relay_opens(asked_s: float) -> None:
     assert off.at_s - on.at_s == pytest.approx(min(asked_s, 0.5))
 
 
-def test_a_renewed_command_runs_on_without_a_click() -> None:
-    bench = Bench()
-    bench.run(AZ, PLUS, 5.0)
-    assert len(bench.gpio.edges) == 2
-    assert bench.gpio.edges[1].at_s == pytest.approx(105.0)
-
-
 @pytest.mark.parametrize("left_s", [0.1, 0.0])
 def test_a_command_may_be_shortened(left_s: float) -> None:
     bench = Bench()
     bench.drive(AZ, PLUS, 0.4)
     bench.drive(AZ, PLUS, left_s)
     bench.clock.sleep(left_s)
-    assert bench.on() == set()
-
-
-def test_enforcing_early_opens_nothing() -> None:
-    bench = Bench(guarded=False)
-    bench.drive(AZ, PLUS, 0.2)
-    bench.bank.enforce(bench.clock() + 0.199)
-    assert bench.on() == {"azimuth_cw"}
-    bench.bank.enforce(bench.clock() + 0.2)
     assert bench.on() == set()
 
 
@@ -134,18 +118,6 @@ def test_of_several_failures_the_first_is_raised_and_the_next_try_is_due_at_once
 # --- when there is something to enforce
 
 
-def test_due_is_the_earliest_end_of_what_is_on() -> None:
-    bench = Bench(guarded=False)
-    assert bench.bank.due_s() is None
-    bench.drive(AZ, PLUS, 0.4)
-    bench.drive(EL, PLUS, 0.3)
-    assert bench.bank.due_s() == pytest.approx(100.3)
-    bench.drive(EL, OFF)
-    assert bench.bank.due_s() == pytest.approx(100.4)
-    bench.bank.off()
-    assert bench.bank.due_s() is None
-
-
 class Waiting:
     """A thread in `wait_until_due`, and whether it has come back."""
 
@@ -166,14 +138,6 @@ def test_a_thread_that_waits_for_the_next_end_comes_back_at_once_when_it_is_due(
     bench.bank.wait_until_due(math.inf)  # else this test would not end
     bench.clock.sleep(5.0)
     bench.bank.wait_until_due(math.inf)
-
-
-def test_a_thread_that_waits_has_no_more_patience_than_was_asked() -> None:
-    bench = Bench(guarded=False)
-    bench.bank.wait_until_due(0.001)
-    bench.drive(AZ, PLUS, 0.5)
-    bench.bank.wait_until_due(0.001)
-    assert bench.on() == {"azimuth_cw"}, "and nothing else happens"
 
 
 def test_a_command_wakes_the_thread_that_waits() -> None:

@@ -62,37 +62,9 @@ def test_the_watch_hears_of_the_first_lease_before_the_relay_closes(bench: Bench
     assert bench.gpio.level(22)
 
 
-def test_the_watch_hears_of_every_renewal(bench: Bench) -> None:
-    for _ in range(3):
-        bench.drive(AZ, PLUS)
-        bench.clock.sleep(0.05)
-    assert bench.journal.words() == ["renew"] * 3
-
-
 def test_the_watch_hears_of_the_end_when_the_relay_is_open(bench: Bench) -> None:
     bench.drive(AZ, PLUS)
     bench.drive(AZ, OFF)
-    assert bench.journal.heard[-1] == ("rest", False)
-
-
-def test_one_motor_that_goes_on_is_not_the_end(bench: Bench) -> None:
-    bench.drive(AZ, PLUS)
-    bench.drive(EL, PLUS)
-    bench.drive(AZ, OFF)
-    assert "rest" not in bench.journal.words()
-    bench.drive(EL, OFF)
-    assert bench.journal.words().count("rest") == 1
-
-
-def test_an_expired_lease_is_an_end_too(bench: Bench) -> None:
-    bench.drive(AZ, PLUS)
-    bench.clock.sleep(0.3)
-    assert bench.journal.heard[-1] == ("rest", False)
-
-
-def test_all_off_is_an_end(bench: Bench) -> None:
-    bench.drive(AZ, PLUS)
-    bench.bank.off()
     assert bench.journal.heard[-1] == ("rest", False)
 
 
@@ -131,22 +103,3 @@ def test_a_look_at_the_supply_is_a_lease_and_the_watch_hears_of_its_end(bench: B
     bench.clock.sleep(0.3)
     assert bench.journal.words() == ["renew", "rest"]
     assert not bench.gpio.level(26)
-
-
-def test_the_watch_hears_of_a_look_that_ends_early_while_the_supply_lingers(bench: Bench) -> None:
-    """A person lets go of the opposite key while its relay still waits."""
-    bench.drive(AZ, PLUS)
-    bench.drive(AZ, OFF)
-    bench.bank.feed(AZ, bench.clock() + 0.25)
-    bench.drive(AZ, OFF)
-    bench.clock.sleep(0.3)
-    assert bench.journal.words() == ["renew", "rest", "renew", "rest"]
-    assert bench.gpio.level(26)
-
-
-def test_a_look_at_one_axis_lasts_while_the_other_ends(bench: Bench) -> None:
-    bench.bank.feed(EL, bench.clock() + 0.4)
-    bench.bank.feed(AZ, bench.clock() + 0.1)
-    bench.clock.sleep(0.2)
-    assert bench.journal.words() == ["renew", "renew"]
-    assert bench.gpio.level(26)

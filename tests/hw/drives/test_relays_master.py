@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.drives.motor_supply import MASTER_LINGER_S
-from tests.hw.drives.relay_bench import AZ, EL, MASTER_PIN, PLUS, Bench
+from tests.hw.drives.relay_bench import AZ, EL, PLUS, Bench
 
 
 def test_the_master_closes_with_the_first_motor_and_lingers_after_the_last() -> None:
@@ -19,20 +19,6 @@ def test_the_master_closes_with_the_first_motor_and_lingers_after_the_last() -> 
     assert bench.on() == {"master"}
     bench.clock.sleep(0.02)
     assert bench.on() == set()
-
-
-def test_the_master_stays_while_a_motor_runs_long() -> None:
-    bench = Bench(master=True)
-    bench.run(AZ, PLUS, 3 * MASTER_LINGER_S)
-    assert [edge.level for edge in bench.gpio.edges if edge.offset == MASTER_PIN] == [True]
-
-
-def test_a_correction_within_the_linger_does_not_click_the_master() -> None:
-    bench = Bench(master=True)
-    for _ in range(5):
-        bench.run(AZ, PLUS, 0.2)
-        bench.clock.sleep(MASTER_LINGER_S - 0.1)
-    assert [edge.level for edge in bench.gpio.edges if edge.offset == MASTER_PIN] == [True]
 
 
 def test_without_its_supply_a_relay_that_may_be_closed_turns_nothing() -> None:
@@ -105,11 +91,3 @@ def test_when_all_is_switched_off_a_look_at_the_supply_is_over() -> None:
     bench.bank.off()
     assert bench.on() == set()
     assert bench.bank.due_s() is None
-
-
-def test_without_a_master_there_is_none_to_switch_off() -> None:
-    bench = Bench()
-    assert bench.bank.supplied, "always"
-    bench.drive(AZ, PLUS)
-    bench.bank.unfeed(AZ)
-    assert bench.on() == set()

@@ -26,11 +26,6 @@ def test_outside_the_table(angle_deg: float) -> None:
         SERVO.value(angle_deg)
 
 
-def test_an_angle_that_is_outside_by_a_rounding_has_the_end_s_own_number() -> None:
-    assert SERVO.value(180.0 + 1e-7) == 2480
-    assert SERVO.value(-1e-7) == 520
-
-
 @pytest.mark.parametrize(
     ("points", "said"),
     [

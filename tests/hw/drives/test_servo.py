@@ -160,17 +160,6 @@ def test_a_stop_during_the_jump_stops_the_servo_at_any_angle(
     assert bench.rotor.antenna() == pytest.approx(stood_deg, abs=1e-6)
 
 
-def test_short_presses_add_up_until_the_jump_is_over() -> None:
-    bench = Bench(at_deg=(180.0, 90.0))
-    for _ in range(6):
-        bench.follow(AZ, 61.0, 0.6)
-        bench.drive.hold(AZ)
-        bench.clock.sleep(1.0)
-    assert bench.drive.position_known(AZ)
-    assert bench.antenna(AZ) == pytest.approx(61.0, abs=2 * TICK_DEG)
-    assert bench.rotor.board.pulse_us(0) is not None, "now a stop is a hold"
-
-
 def test_a_stop_in_the_jump_is_carried_out_although_the_guard_has_ended() -> None:
     bench = Bench()
     bench.follow(AZ, 120.0, 0.2)
@@ -260,44 +249,6 @@ def test_a_stop_never_waits_for_a_bus_that_hangs() -> None:
     assert bench.antenna(AZ) == pytest.approx(60.0, abs=2.0)
 
 
-@pytest.mark.parametrize("fault", ["azimuth-servo-stalled", "azimuth-servo-unpowered"])
-def test_a_servo_that_does_not_turn_goes_unnoticed(fault: str) -> None:
-    bench = Bench()
-    bench.settle()
-    bench.rotor.inject(fault)
-    bench.follow(AZ, 100.0, 2.0)
-    assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
-    assert bench.drive.sensor(AZ).read() == 100.0, "which is why it says: modelled"
-
-
-def test_a_late_guard_makes_no_leap() -> None:
-    bench = Bench()
-    bench.settle()
-    bench.drive.aim(AZ, 180.0, 0.0, bench.clock() + 0.5)
-    before_deg = bench.drive.sensor(AZ).read()
-    bench.drive.enforce(bench.clock() + 0.4)
-    assert bench.drive.sensor(AZ).read() - before_deg == pytest.approx(40 * 0.04)
-
-
-@pytest.mark.parametrize("angle_deg", [-1.0, 181.0, 359.0])
-def test_an_angle_outside_the_calibration_is_refused_and_moves_nothing(angle_deg: float) -> None:
-    bench = Bench()
-    bench.settle()
-    with pytest.raises(HardwareError, match=r"azimuth servo: .* outside its calibration table"):
-        bench.drive.aim(AZ, angle_deg, 0.0, bench.clock() + 0.25)
-    bench.clock.sleep(1.0)
-    assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
-
-
-def test_a_course_that_leads_beyond_the_calibration_ends_at_its_end() -> None:
-    bench = Bench()
-    bench.settle()
-    bench.follow(EL, 0.0, 1.0)
-    bench.drive.aim(EL, 0.0, -10.0, bench.clock() + 0.5)
-    bench.clock.sleep(1.0)
-    assert bench.antenna(EL) == pytest.approx(0.0, abs=TICK_DEG)
-
-
 # --- letting go
 
 
@@ -347,26 +298,6 @@ def test_a_board_without_supply_is_an_error_and_comes_back_without_a_pulse(fault
     assert not bench.drive.position_known(AZ)
     bench.follow(AZ, 100.0, SETTLED_S + 2.0)
     assert bench.antenna(AZ) == pytest.approx(100.0, abs=TICK_DEG)
-
-
-def test_a_board_that_comes_late_is_waited_for() -> None:
-    bench = Bench()
-    bench.rotor.inject("board-unpowered")
-    bench.clock.sleep(5.0)
-    assert len(bench.heard) == pytest.approx(10, abs=1), "twice a second"
-    bench.rotor.clear("board-unpowered")
-    bench.clock.sleep(0.5)
-    bench.settle()
-    assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
-    assert bench.rotor.board.early_writes == 0
-
-
-def test_on_a_bus_that_takes_its_time() -> None:
-    bench = Bench(on_the_wire=True)
-    bench.settle()
-    bench.follow(AZ, 100.0, 2.0)
-    assert bench.antenna(AZ) == pytest.approx(100.0, abs=TICK_DEG)
-    assert bench.heard == []
 
 
 @pytest.mark.parametrize(

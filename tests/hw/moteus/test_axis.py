@@ -62,12 +62,6 @@ def same(order: Order, expected: Order) -> bool:
     return repr(order) == repr(expected)
 
 
-def moved(order: Order) -> tuple[float, float]:
-    """The place and the speed of a move."""
-    assert isinstance(order, Move)
-    return order.position_rev, order.velocity_rev_s
-
-
 # --- how often
 
 
@@ -76,14 +70,6 @@ def test_a_controller_at_rest_is_asked_every_80_ms() -> None:
     assert bench.axis.due_s() == pytest.approx(50.08)
     assert bench.axis.order(50.079) is None
     assert bench.axis.order(50.08) == Query()
-
-
-def test_an_aim_is_sent_at_once_and_then_every_20_ms_further_on_its_way() -> None:
-    bench = Bench()
-    bench.aims(72.0, 3.6)
-    assert moved(bench.hears()) == pytest.approx((0.2, 0.01))
-    assert bench.axis.due_s() == pytest.approx(50.02)
-    assert moved(bench.hears()) == pytest.approx((0.2 + 0.01 * 0.02, 0.01))
 
 
 @pytest.mark.parametrize(("speed_dps", "every_s"), [(0.009, 0.08), (0.011, 0.02), (-0.011, 0.02)])
@@ -98,28 +84,6 @@ def test_until_it_stands_a_controller_that_holds_is_spoken_to_as_often(speed_dps
 
 
 # --- torque
-
-
-def test_a_hold_before_the_first_aim_orders_nothing() -> None:
-    bench = Bench()
-    bench.axis.hold()
-    assert bench.hears() == Query()
-    assert bench.axis.at_rest
-
-
-def test_released_it_is_stopped_until_it_says_so_and_then_only_asked() -> None:
-    bench = Bench()
-    bench.moves()
-    bench.axis.release()
-    assert (bench.axis.busy, bench.axis.at_rest) == (True, False)
-    assert [bench.hears(), bench.hears()] == [Stop(), Stop()], "its answer still says that it holds"
-    bench.says(mode=Mode.STOPPED)
-    assert bench.hears() == Stop()
-    assert (bench.axis.busy, bench.axis.at_rest) == (False, True)
-    assert bench.axis.due_s() == -math.inf, "what waits behind it goes at once"
-    assert bench.hears() == Query()
-    bench.axis.hold()
-    assert bench.hears() == Query(), "a hold gives no torque back"
 
 
 def test_a_released_controller_that_another_program_let_time_out_is_not_at_fault() -> None:
@@ -195,67 +159,6 @@ def test_a_controller_that_answers_for_the_first_time_has_not_come_back() -> Non
     assert not axis.hearing.came_back
 
 
-@pytest.mark.parametrize(("seconds", "forgiven"), [(1.9, True), (2.1, False)])
-def test_two_seconds_of_silence_are_forgiven(seconds: float, forgiven: bool) -> None:
-    bench = Bench()
-    bench.moves()
-    bench.silent(seconds)
-    bench.says(mode=Mode.TIMEOUT)
-    bench.hears()
-    assert (bench.axis.fault is None) is forgiven
-    if forgiven:
-        assert bench.hears() == Stop()
-        bench.says(mode=Mode.STOPPED)
-        bench.hears()
-        assert isinstance(bench.hears(), Move)
-    else:
-        assert "moteus 1 heard nothing for 0.5 s and stopped by itself" in str(bench.axis.fault)
-        assert bench.hears() == Query()
-        with pytest.raises(HardwareError, match="then acknowledge it"):
-            bench.aims()
-
-
-def test_a_controller_that_lost_its_place_on_the_way_gets_no_position() -> None:
-    bench = Bench()
-    bench.moves()
-    assert bench.axis.position_known
-    bench.says(position_rev=0.001, home=Home.ROTOR)
-    bench.hears()
-    assert not bench.axis.position_known
-    assert same(bench.hears(), HOLD)
-    with pytest.raises(HardwareError, match="moteus 1 was switched on and does not know which way the antenna points"):
-        bench.aims()
-    assert not MoteusAxis(MoteusSpec(1)).position_known
-
-
-# --- faults
-
-
-def test_a_fault_stays_until_it_is_acknowledged_and_its_cause_has_gone() -> None:
-    bench = Bench()
-    bench.moves()
-    bench.says(mode=Mode.FAULT, fault=38)
-    bench.hears()
-    assert str(bench.axis.fault).startswith("moteus 1: too hot (38): let it cool")
-    bench.says(mode=Mode.STOPPED, fault=0)
-    assert bench.hears() == Query()
-    assert bench.axis.fault
-    bench.axis.acknowledge(bench.now_s)
-    assert bench.hears() == Stop()
-    assert bench.axis.fault is None
-    assert bench.axis.limited_by is None
-
-
-def test_a_limit_is_no_fault() -> None:
-    bench = Bench()
-    bench.moves()
-    bench.says(fault=103)
-    bench.hears()
-    assert bench.axis.fault is None
-    assert bench.axis.limited_by is not None
-    assert bench.axis.limited_by.short == "SERVOPOS"
-
-
 # --- a person's word
 
 
@@ -269,32 +172,6 @@ def test_an_axis_that_turns_by_half_a_degree_a_second_cannot_be_read_by_eye(spee
             bench.axis.confirm(80.0, True, bench.now_s)
     else:
         bench.axis.confirm(80.0, True, bench.now_s)
-
-
-@pytest.mark.parametrize("exactly", [True, False])
-def test_a_confirmed_angle_is_set_when_the_torque_has_gone(exactly: bool) -> None:
-    bench = Bench()
-    bench.moves()
-    bench.axis.confirm(80.0, exactly, bench.now_s)
-    assert bench.hears() == Stop()
-    bench.says(mode=Mode.STOPPED)
-    assert bench.hears() == Stop()
-    bench.says(position_rev=80.0 / 360)
-    order = bench.hears()
-    assert isinstance(order, SetOutput)
-    assert (order.position_rev, order.exactly) == (pytest.approx(80.0 / 360), exactly)
-    assert not bench.axis.busy
-    assert bench.axis.angle_deg(bench.now_s) == pytest.approx(80.0)
-    assert same(bench.hears(), HOLD)
-
-
-@pytest.mark.parametrize(("seconds", "delivered"), [(1.9, True), (2.1, False)])
-def test_a_request_that_cannot_be_delivered_in_two_seconds_is_dropped(seconds: float, delivered: bool) -> None:
-    bench = Bench()
-    bench.axis.confirm(80.0, True, bench.now_s)
-    bench.silent(seconds)
-    bench.hears()
-    assert bench.axis.busy is delivered
 
 
 def test_an_axis_that_is_only_looked_at_gets_no_order_and_no_position() -> None:

@@ -6,7 +6,6 @@ import contextlib
 import errno
 import logging
 import os
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -17,7 +16,6 @@ import pytest
 
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
-from firmware_sim.clock import SimClock
 from firmware_sim.moteus.bus import Frame, padded
 from firmware_sim.moteus.motor import Mode
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
@@ -89,12 +87,6 @@ def bench(tmp_path: Path) -> Iterator[Bench]:
     finally:
         bench.bus.close()
         bench.adapter.unplug()
-
-
-def test_both_axes_go_where_they_are_aimed(bench: Bench) -> None:
-    wait_for(bench.reaches(AZ, 8.0))
-    wait_for(bench.reaches(EL, 5.0))
-    assert bench.world.antenna() == pytest.approx((8.0, 5.0), abs=0.02)
 
 
 def test_a_ramp_of_3_dps_is_followed_within_a_twentieth_of_a_degree(bench: Bench) -> None:
@@ -225,14 +217,6 @@ def test_closing_decelerates_and_ends_the_thread(bench: Bench) -> None:
     assert MOTEUS_THREAD not in [thread.name for thread in threading.enumerate()]
 
 
-def test_closing_at_once_after_an_aim_still_tells_it_to_hold(bench: Bench) -> None:
-    wait_for(bench.reaches(AZ, 0.0))
-    bench.aim(AZ, 300.0)
-    bench.bus.close()
-    wait_for(lambda: bench.mode(AZ) is Mode.TIMEOUT)
-    assert bench.world.antenna()[0] < 0.2, "half a second without a hold would be 2.5°"
-
-
 def test_no_adapter_is_a_sentence_and_it_is_found_when_it_comes(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -279,17 +263,6 @@ def test_why_a_port_does_not_open_is_a_sentence_with_what_to_do(number: int, wor
         assert f"moteus: can0: {words}" in _complaint(drive, AZ)
     finally:
         bus.close()
-
-
-def test_a_bad_cable_fills_no_log(caplog: pytest.LogCaptureFixture) -> None:
-    clock = SimClock(100.0)
-    drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2), clock)
-    MoteusBus(drive, CanChannel("can0"), clock)
-    for _ in range(30):
-        drive.on_return(EL, 0.25)
-        clock.sleep(0.5)
-    said = "elevation: moteus answers again, after 0.25 s of silence"
-    assert [record.getMessage() for record in caplog.records] == [said, f"{said}; 19 more since the last such line"]
 
 
 @contextlib.contextmanager
@@ -350,15 +323,3 @@ def _complaint(drive: MoteusDrive, axis: Axis) -> str:
     except HardwareError as error:
         return str(error)
     return ""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="SocketCAN is Linux's")
-def test_no_can_interface_is_a_sentence() -> None:
-    drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2), time.monotonic)
-    bus = MoteusBus(drive, CanChannel("can77"))
-    bus.start()
-    try:
-        wait_for(lambda: "not connected" not in _complaint(drive, AZ))
-        assert "can77" in _complaint(drive, AZ)
-    finally:
-        bus.close()

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from itertools import pairwise
 
 import pytest
 
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
-from firmware_sim.clock import SimClock
 from firmware_sim.moteus.motor import Mode
-from hw.drives.leases import LONGEST_LEASE_S
-from hw.moteus.axis import STALE_S
-from hw.moteus.drive import MoteusDrive
 from hw.moteus.orders import MoteusSpec
-from hw.ports import AngleSource, Axis, HardwareError
 from tests.hw.moteus.drive_bench import AZ, AZIMUTH, CYCLE_S, EL, ELEVATION, Bench
 
 
@@ -36,32 +30,7 @@ def test_degrees_are_revolutions(spec: MoteusSpec, angle_deg: float, position_re
     assert spec.degrees(position_rev) == pytest.approx(angle_deg, abs=1e-9)
 
 
-@pytest.mark.parametrize("axis", list(Axis))
-def test_it_goes_there_and_tells_so(axis: Axis) -> None:
-    bench = Bench(start_deg=(200.0, 10.0))
-    assert bench.drive.sensor(axis).read() == pytest.approx([200.0, 10.0][list(Axis).index(axis)], abs=1e-4)
-    bench.follow(axis, 47.3, 10.0)
-    assert bench.antenna(axis) == pytest.approx(47.3, abs=1e-3)
-    assert bench.drive.sensor(axis).read() == pytest.approx(47.3, abs=1e-3)
-    assert bench.drive.sensor(axis).source is AngleSource.MEASURED
-
-
 # --- motion
-
-
-@pytest.mark.parametrize("axis", list(Axis))
-def test_a_ramp_of_3_dps_is_followed_within_a_twentieth_of_a_degree(axis: Axis) -> None:
-    bench = Bench()
-    bench.follow(axis, 10.0, 3.0)
-    start_s, worst_deg = bench.clock(), 0.0
-    for at in range(400):
-        aim_deg = 10.0 + 3.0 * (bench.clock() - start_s)
-        bench.drive.aim(axis, aim_deg, 3.0, bench.clock() + 0.25)
-        bench.clock.sleep(CYCLE_S)
-        if at > 40:
-            worst_deg = max(worst_deg, abs(bench.antenna(axis) - (10.0 + 3.0 * (bench.clock() - start_s))))
-    print(f"{axis.value}: worst error on a 3°/s ramp {worst_deg:.5f}°")  # noqa: T201 - pytest -rP shows it
-    assert worst_deg < 0.05
 
 
 def test_a_step_keeps_to_30_dps_and_20_dps2() -> None:
@@ -87,12 +56,6 @@ def test_an_aim_without_renewal_ends_in_a_hold() -> None:
     assert 0.2 * 10 < coasted_deg < 0.3 * 10 + 10**2 / (2 * 20)  # the rest of its lease, then 20°/s²
     assert (bench.mode(AZ), bench.drive.faults()) == (Mode.POSITION, {}), "held under torque, its watchdog fed"
     assert bench.drive.due_s() is None
-
-
-def test_no_lease_is_longer_than_the_longest() -> None:
-    bench = Bench()
-    bench.drive.aim(AZ, 10.0, 0.0, math.inf)
-    assert bench.drive.due_s() == bench.clock() + LONGEST_LEASE_S
 
 
 @pytest.mark.parametrize("how", ["hold", "off", "aim that has ended"])
@@ -134,32 +97,6 @@ def test_release_lets_go_until_the_next_aim() -> None:
     assert bench.mode(EL) is Mode.STOPPED
 
 
-@pytest.mark.parametrize(("angle_deg", "rate_dps"), [(math.nan, 0.0), (math.inf, 0.0), (10.0, math.nan)])
-def test_nowhere_is_not_taken_for_a_speed(angle_deg: float, rate_dps: float) -> None:
-    bench = Bench()
-    with pytest.raises(HardwareError, match="nowhere to aim at"):
-        bench.drive.aim(AZ, angle_deg, rate_dps, bench.clock() + 0.2)
-
-
-def test_a_lost_connection_is_why_there_is_no_answer_until_there_is_one() -> None:
-    bench = Bench()
-    bench.alive = False
-    bench.drive.lost("moteus: /dev/fdcanusb: the adapter has gone")
-    bench.clock.sleep(STALE_S - 0.1)
-    bench.drive.sensor(AZ).read()
-    bench.clock.sleep(0.2)
-    for ask in (bench.drive.sensor(AZ).read, lambda: bench.drive.acknowledge(AZ), lambda: bench.follow(EL, 5.0, 0.05)):
-        with pytest.raises(HardwareError, match="the adapter has gone"):
-            ask()
-    bench.alive = True
-    bench.clock.sleep(0.2)
-    bench.follow(AZ, 1.0, 1.0)
-    bench.world.inject("azimuth-silent")
-    bench.clock.sleep(STALE_S + 0.1)
-    with pytest.raises(HardwareError, match=r"^moteus 1 does not answer"):
-        bench.drive.sensor(AZ).read()
-
-
 def test_the_bus_sleeps_until_the_next_order_and_not_at_all_when_one_is_due() -> None:
     bench = Bench()
     bench.alive = False
@@ -168,8 +105,3 @@ def test_the_bus_sleeps_until_the_next_order_and_not_at_all_when_one_is_due() ->
     assert bench.drive.next_order_in_s() == pytest.approx(due_s - bench.clock())
     bench.clock.sleep(1.0)
     assert bench.drive.next_order_in_s() == 0.0
-
-
-def test_two_axes_cannot_share_an_id() -> None:
-    with pytest.raises(HardwareError, match="both have CAN id 1"):
-        MoteusDrive(MoteusSpec(1), MoteusSpec(1), SimClock())

@@ -8,7 +8,6 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 from firmware_sim.moteus.motor import Mode
 from firmware_sim.rotors.moteus import FAULT_CODES
-from hw.moteus.axis import STALE_S
 from hw.moteus.faults import FAULTS
 from hw.moteus.orders import WATCHDOG_S
 from hw.ports import Axis, HardwareError
@@ -37,18 +36,6 @@ def test_each_fault_stops_its_axis_and_says_what_to_do(axis: Axis, name: str) ->
     assert bench.antenna(other) == pytest.approx(20.0, abs=1e-3)
 
 
-def test_after_an_acknowledgement_it_obeys_again() -> None:
-    bench = Bench()
-    bench.follow(AZ, 60.0, 1.0)
-    bench.world.inject("azimuth-over-temperature")
-    bench.clock.sleep(0.2)
-    bench.drive.acknowledge(AZ)
-    bench.clock.sleep(0.2)
-    assert bench.drive.faults() == {}
-    bench.follow(AZ, 60.0, 5.0)
-    assert bench.antenna(AZ) == pytest.approx(60.0, abs=1e-3)
-
-
 def test_a_fault_that_is_still_there_comes_back() -> None:
     bench = Bench(start_deg=(90.0, 0.0))
     bench.world.inject("azimuth-factory-bounds")
@@ -69,19 +56,6 @@ def test_a_controller_held_back_by_its_bounds_says_so_and_is_not_at_fault() -> N
     assert bench.drive.faults() == {}
 
 
-def test_silence_is_an_error_and_the_other_axis_goes_on() -> None:
-    bench = Bench()
-    bench.follow(AZ, 60.0, 1.0)
-    bench.world.inject("azimuth-silent")
-    bench.clock.sleep(STALE_S + 0.1)
-    with pytest.raises(HardwareError, match=r"^moteus 1 does not answer: check its supply"):
-        bench.drive.sensor(AZ).read()
-    with pytest.raises(HardwareError, match="does not answer"):
-        bench.drive.aim(AZ, 60.0, 0.0, bench.clock() + 0.2)
-    bench.follow(EL, 20.0, 3.0)
-    assert bench.antenna(EL) == pytest.approx(20.0, abs=1e-3)
-
-
 def test_the_watchdog_stops_it_when_the_program_dies_and_a_person_wakes_it() -> None:
     bench = Bench()
     bench.follow(AZ, 300.0, 3.0)
@@ -99,15 +73,3 @@ def test_the_watchdog_stops_it_when_the_program_dies_and_a_person_wakes_it() -> 
     bench.clock.sleep(0.1)
     bench.follow(AZ, at_deg + 5.0, 3.0)
     assert bench.antenna(AZ) == pytest.approx(at_deg + 5.0, abs=1e-3)
-
-
-def test_what_an_earlier_run_left_timed_out_waits_for_the_first_aim() -> None:
-    bench = Bench()
-    bench.follow(AZ, 10.0, 2.0)
-    bench.alive = False
-    bench.clock.sleep(2.0)
-    bench.start_program()
-    bench.clock.sleep(1.0)
-    assert (bench.mode(AZ), bench.drive.faults()) == (Mode.TIMEOUT, {})
-    bench.follow(AZ, 12.0, 2.0)
-    assert bench.antenna(AZ) == pytest.approx(12.0, abs=1e-3)

@@ -32,14 +32,6 @@ def test_behind_a_gear_a_new_supply_means_an_unknown_position() -> None:
     assert bench.antenna(AZ) == pytest.approx(130.0, abs=0.01)
 
 
-def test_confirmed_exactly_it_is_what_was_said() -> None:
-    bench = Bench(start_deg=(123.0, 0.0))
-    bench.world.inject("azimuth-power-cycled")
-    bench.drive.confirm(AZ, 127.0, exactly=True)
-    bench.clock.sleep(0.5)
-    assert bench.drive.sensor(AZ).read() == pytest.approx(127.0, abs=0.01)
-
-
 def test_a_confirmation_that_cannot_be_delivered_is_forgotten_before_the_antenna_has_turned() -> None:
     bench = Bench(start_deg=(123.0, 0.0))
     bench.world.inject("azimuth-silent")
@@ -68,24 +60,6 @@ def test_while_it_turns_no_angle_is_confirmed_and_it_keeps_its_torque(brakes: bo
     bench.drive.hold(AZ)
     bench.clock.sleep(3.0)
     bench.drive.confirm(AZ, 33.0, exactly=True)
-
-
-def test_a_confirmation_moves_nothing_that_holds() -> None:
-    bench = Bench()
-    bench.follow(AZ, 30.0, 4.0)
-    bench.drive.confirm(AZ, 33.0, exactly=True)
-    bench.clock.sleep(2.0)
-    assert bench.antenna(AZ) == pytest.approx(30.0, abs=0.01)
-    assert bench.drive.sensor(AZ).read() == pytest.approx(33.0, abs=0.01)
-    assert bench.mode(AZ) is Mode.POSITION
-
-
-def test_without_a_gear_the_rotors_encoder_knows() -> None:
-    bench = Bench(start_deg=(100.0, 0.0), geared=False, rotor_turns=1)
-    bench.world.inject("azimuth-power-cycled")
-    bench.clock.sleep(0.2)
-    assert bench.drive.position_known(AZ)
-    assert bench.drive.sensor(AZ).read() == pytest.approx(100.0, abs=0.01)
 
 
 def test_a_controller_that_lost_its_supply_is_queried_before_it_gets_an_order_to_move() -> None:

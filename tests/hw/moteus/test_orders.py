@@ -9,8 +9,6 @@ import pytest
 from hw.moteus.orders import WATCHDOG_S, Home, Mode, MoteusSpec
 from rotator.config.kinds.moteus import MoteusAxisTable
 
-ELEVATION = MoteusSpec(2, rev_per_turn=-2.0, zero_rev=-0.25)
-
 
 def test_the_registers_have_the_reference_s_numbers() -> None:
     assert {mode.name: mode.value for mode in Mode} == {"STOPPED": 0, "FAULT": 1, "POSITION": 10, "TIMEOUT": 11}
@@ -21,12 +19,6 @@ def test_a_controller_that_hears_nothing_stops_after_half_a_second() -> None:
     assert WATCHDOG_S == 0.5
 
 
-@pytest.mark.parametrize(("angle_deg", "position_rev"), [(0.0, -0.25), (90.0, -0.75), (-45.0, 0.0), (360.0, -2.25)])
-def test_there_and_back(angle_deg: float, position_rev: float) -> None:
-    assert ELEVATION.revolutions(angle_deg) == pytest.approx(position_rev)
-    assert ELEVATION.degrees(position_rev) == pytest.approx(angle_deg)
-
-
 def test_what_is_left_out_is_as_in_a_configuration_that_leaves_it_out() -> None:
     table, spec = MoteusAxisTable(), MoteusSpec(1)
     assert table.max_torque_nm is None
@@ -34,10 +26,6 @@ def test_what_is_left_out_is_as_in_a_configuration_that_leaves_it_out() -> None:
     for name in ("rev_per_turn", "zero_rev", "velocity_limit_dps", "accel_limit_dps2", "geared"):
         assert getattr(spec, name) == getattr(table, name), name
     assert (spec.min_deg, spec.max_deg) == (0.0, 360.0), "a full circle"
-
-
-def test_a_span_has_no_sign_and_no_zero() -> None:
-    assert ELEVATION.span_rev(90.0) == ELEVATION.span_rev(-90.0) == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize(
@@ -58,7 +46,3 @@ def test_each_turn_of_the_range_in_which_the_antenna_points_so(
 ) -> None:
     spec = MoteusSpec(1, min_deg=0.0, max_deg=450.0)
     assert spec.turns_deg(angle_deg, beyond_deg) == pytest.approx(turns_deg)
-
-
-def test_where_no_turn_is_in_the_range_there_is_none() -> None:
-    assert MoteusSpec(1, min_deg=0.0, max_deg=180.0).turns_deg(270.0, 5.0) == []

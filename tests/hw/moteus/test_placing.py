@@ -74,15 +74,6 @@ def test_where_two_turns_fit_it_does_not_move_until_a_person_says_which(
     assert bench.antenna(AZ) == pytest.approx(200.0, abs=NEAR_DEG)
 
 
-@WITHOUT_A_PERSON
-def test_where_no_turn_fits_it_does_not_move(encoder: dict[str, float]) -> None:
-    bench = Bench(start_deg=(270.0, 0.0), range_deg=(0.0, 180.0), **encoder)  # type: ignore[arg-type]
-    powered_up(bench)
-    assert "outside of 0° to 180°" in complaint(bench)
-    with pytest.raises(HardwareError, match="look, and confirm its angle"):
-        bench.follow(AZ, 100.0, 0.1)
-
-
 @pytest.mark.parametrize("true_deg", [-0.1, 0.0, 0.1, 359.9, 360.0])
 def test_at_the_seam_of_a_full_circle_a_push_of_the_wind_is_not_taken_for_a_turn(true_deg: float) -> None:
     bench = Bench(start_deg=(true_deg, 0.0), range_deg=(0.0, 360.0), **DIRECT)  # type: ignore[arg-type]
@@ -120,23 +111,6 @@ def test_a_supply_lost_while_it_turns_in_the_overlap_stops_it(encoder: dict[str,
     bench.clock.sleep(1.0)
     assert "45° or at 405°" in complaint(bench), "a controller that holds has proved nothing"
     assert bench.antenna(AZ) == pytest.approx(at_deg, abs=NEAR_DEG)
-
-
-def test_an_encoder_that_knows_better_than_the_person_is_believed() -> None:
-    bench = Bench(start_deg=(405.0, 0.0), **DIRECT)  # type: ignore[arg-type]  # keywords of two types
-    powered_up(bench)
-    with pytest.raises(HardwareError, match="its encoder shows 45°, which is not 200°"):
-        bench.drive.confirm(AZ, 200.0)
-
-
-def test_a_geared_controller_that_shows_an_angle_out_of_range_asks() -> None:
-    """An encoder on the output that the file does not tell of: at 270° it says -90°."""
-    bench = Bench(start_deg=(270.0, 0.0), geared=True, output_encoder=True)
-    powered_up(bench)
-    assert "shows -90°, outside of 0° to 450°" in complaint(bench)
-    bench.drive.confirm(AZ, 268.0)
-    bench.clock.sleep(0.5)
-    assert bench.drive.sensor(AZ).read() == pytest.approx(270.0, abs=NEAR_DEG)
 
 
 def worlds() -> st.SearchStrategy[tuple[dict[str, float], float, float, float]]:

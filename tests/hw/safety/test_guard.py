@@ -17,7 +17,7 @@ from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from hw.drives.leases import LONGEST_LEASE_S
 from hw.drives.relays import RelayBank
-from hw.ports import Axis, Direction, HardwareError, OutputLines
+from hw.ports import Axis, Direction, HardwareError
 from hw.safety.guard import GUARD_THREAD, Guard
 
 PINS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25, "master": 26}
@@ -185,36 +185,6 @@ def test_a_bug_in_the_drive_is_logged_once_and_the_guard_goes_on(
     assert bench.opened.wait(PATIENCE_S), "it still guards"
 
 
-class FailsInTurn:
-    """Lines that fail with the next of these at each switching off, and switch when all have been raised."""
-
-    def __init__(self, lines: OutputLines, *failures: Exception) -> None:
-        self._lines = lines
-        self._failures = list(failures)
-
-    def set(self, levels: dict[str, bool]) -> None:
-        if not any(levels.values()) and self._failures:
-            raise self._failures.pop(0)
-        self._lines.set(levels)
-
-    def close(self) -> None:
-        self._lines.close()
-
-
-def test_each_line_that_fails_is_in_the_log_but_a_bug_once_with_any_words(
-    caplog: pytest.LogCaptureFixture,
-) -> None:
-    said = ("cannot switch azimuth_cw", "cannot switch master")
-    bench = Bench()
-    failures = (*(HardwareError(text) for text in said), KeyError("one"), KeyError("two"), KeyError("three"))
-    bank = RelayBank(FailsInTurn(bench.lines, *failures), time.monotonic, dead_time_s=0.05)
-    guard = Guard(bank, time.monotonic)
-    bank.drive(Axis.AZIMUTH, Direction.PLUS, time.monotonic() + 0.01)
-    while bank.driven()[Axis.AZIMUTH] is not Direction.OFF:
-        guard.enforce(time.monotonic())
-    assert [record.getMessage() for record in caplog.records] == [*said, "KeyError('one')"]
-
-
 @pytest.mark.usefixtures("guard")
 def test_after_a_bug_the_relays_open_by_the_way_that_still_works(bench: Bench) -> None:
     """One motor's relays cannot be switched, all relays together can."""
@@ -305,26 +275,7 @@ def test_a_line_that_fails_is_tried_20_times_a_second_and_leaves_the_machine_its
         guard.stop()
 
 
-def test_as_long_as_all_goes_well_it_never_pauses() -> None:
-    drive = AlwaysDue(fails=False)
-    guard = Guard(drive, time.monotonic)
-    guard.start()
-    try:
-        assert drive.many[2000].wait(PATIENCE_S), "with a pause after each, 2000 would take 100 s"
-    finally:
-        guard.stop()
-
-
 # --- the end
-
-
-def test_it_can_be_stopped_twice(bench: Bench, guard: Guard) -> None:
-    guard.stop()
-    guard.stop()
-    assert GUARD_THREAD not in [thread.name for thread in threading.enumerate()]
-    bench.drive(0.5)
-    guard.stop()
-    assert not any(bench.gpio.level(pin) for pin in PINS.values()), "each time it switches everything off"
 
 
 def test_a_stop_that_fails_can_be_tried_again(bench: Bench, guard: Guard) -> None:
@@ -341,25 +292,4 @@ def test_a_stop_that_fails_can_be_tried_again(bench: Bench, guard: Guard) -> Non
 def test_stopping_the_guard_opens_everything(bench: Bench, guard: Guard) -> None:
     bench.drive(0.5)
     guard.stop()
-    assert not any(bench.gpio.level(pin) for pin in PINS.values())
-
-
-def test_after_stop_the_thread_is_gone() -> None:
-    bench = Bench(master=True)
-    bench.run_once()
-    before = set(threading.enumerate())
-    clock = MeddledClock(lambda: None)
-    guard = Guard(bench.bank, clock)
-    guard.start()
-    assert clock.read.wait(PATIENCE_S)
-    try:
-        guard.stop()
-        assert set(threading.enumerate()) <= before
-    finally:
-        bench.rouse()
-
-
-def test_a_guard_that_never_started_still_switches_off(bench: Bench) -> None:
-    bench.drive(0.5)
-    Guard(bench.bank, time.monotonic).stop()
     assert not any(bench.gpio.level(pin) for pin in PINS.values())

@@ -15,13 +15,10 @@ from pathlib import Path
 import pytest
 
 import hw.safety.off_at_once
-from hw.safety.lines_off import RelayLines
-from hw.safety.off_at_once import REQUEST, TAKE_LINES, main, request, switch_off
+from hw.safety.off_at_once import REQUEST, request, switch_off
 
 SCRIPT = Path(hw.safety.off_at_once.__file__)
 UNIT = Path(__file__).parents[3] / "install" / "rotator.service"
-FEW_MODULES = 45
-"""Python itself loads some thirty to start; with its packages, gpiod and ours it would be three hundred."""
 
 
 class Attribute(ctypes.Structure):
@@ -69,39 +66,15 @@ def test_the_kernel_reads_outputs_that_are_off(active_low: bool, flags: int) -> 
     assert asked.consumer == b"rotator-off"
 
 
-def test_the_request_is_as_long_as_the_kernels_structure() -> None:
-    assert REQUEST.size == ctypes.sizeof(LineRequest) == TAKE_LINES >> 16 & 0x3FFF
-
-
 def test_the_file_of_the_lines_is_found_in_the_kernels_answer() -> None:
     answer = LineRequest.from_buffer_copy(request([17], active_low=False))
     answer.fd = 42
     assert REQUEST.unpack(bytes(answer))[-1] == 42
 
 
-def test_it_loads_next_to_nothing() -> None:
-    loaded = run("-X", "importtime", str(SCRIPT), "/nowhere").stderr.splitlines()
-    assert len(loaded) < FEW_MODULES, loaded
-
-
 def test_without_a_file_there_is_nothing_to_switch_off(tmp_path: Path) -> None:
     # The program never came so far, or it ran a simulation.
     assert run(str(SCRIPT), str(tmp_path / "relay-lines")).returncode == 0
-
-
-def test_what_fails_is_said_in_one_line(tmp_path: Path) -> None:
-    lines = RelayLines(str(tmp_path / "gpiochip9"), {"azimuth_cw": 22}, active_low=False)
-    (tmp_path / "relay-lines").write_text(lines.to_text())
-    ended = run(str(SCRIPT), str(tmp_path / "relay-lines"))
-    assert ended.returncode == 1
-    assert ended.stderr.startswith("relays: [Errno 2] No such file or directory")
-    assert ended.stderr.count("\n") == 1
-
-
-def test_a_text_that_is_no_description_is_said_too(tmp_path: Path) -> None:
-    (tmp_path / "relay-lines").write_text("half a fi")
-    ended = run(str(SCRIPT), str(tmp_path / "relay-lines"))
-    assert (ended.returncode, ended.stderr) == (1, "relays: not a description of relay lines: 'half a fi'\n")
 
 
 def test_a_device_that_is_no_gpio_chip_refuses() -> None:
@@ -114,11 +87,3 @@ def test_the_unit_starts_it_without_packages() -> None:
     first = next(line for line in UNIT.read_text().splitlines() if line.startswith("ExecStopPost="))
     assert "/bin/python -I -S " in first
     assert f"/{SCRIPT.parent.name}/{SCRIPT.name} " in first
-
-
-def test_no_other_file_of_ours_is_read(tmp_path: Path) -> None:
-    # As an installed copy: alone in a folder.
-    alone = tmp_path / SCRIPT.name
-    alone.write_bytes(SCRIPT.read_bytes())
-    assert run(str(alone), str(tmp_path / "none")).returncode == 0
-    assert main([str(tmp_path / "none")]) == 0

@@ -52,15 +52,6 @@ def switched_off(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "off"
 
 
-def test_dismissed_it_ends_and_leaves_the_lines_alone(switched_off: Path) -> None:
-    sentinel = Sentinel(LINES)
-    sentinel.renew()
-    sentinel.rest()
-    sentinel.dismiss()
-    sentinel.close()
-    assert not switched_off.exists()
-
-
 def left_behind() -> tuple[list[str], str]:
     """The open files of this process, and its children."""
     children = Path(f"/proc/self/task/{threading.get_native_id()}/children")
@@ -103,20 +94,6 @@ def test_closed_without_a_dismissal_it_switches_the_lines_off(switched_off: Path
     sentinel.renew()
     sentinel.close()
     assert switched_off.exists()
-
-
-@pytest.mark.usefixtures("switched_off")
-def test_closed_twice_it_says_nothing_into_another_file(tmp_path: Path) -> None:
-    sentinel = Sentinel(LINES)
-    sentinel.dismiss()
-    sentinel.close()
-    sentinel.close()
-    with (tmp_path / "other").open("wb", buffering=0) as other:  # it gets the number of the closed pipe
-        sentinel.dismiss()
-        sentinel.rest()
-        with pytest.raises(HardwareError, match="gone or stuck: no relay may close"):
-            sentinel.renew()
-        assert other.tell() == 0
 
 
 def motors_run_for_minutes(sentinel: Sentinel) -> None:

@@ -20,7 +20,7 @@ from hw.buses.gpio import GpioOutputs, LinesBusyError
 from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
-from hw.safety.sentinel_process import SILENCE_S, main, watch
+from hw.safety.sentinel_process import SILENCE_S, watch
 
 CHIP = "/dev/gpiochip0"
 LINES = RelayLines(CHIP, {"azimuth_cw": 22, "azimuth_ccw": 23}, active_low=False)
@@ -145,21 +145,6 @@ def test_a_program_that_runs_is_never_silent_for_so_long() -> None:
     assert SILENCE_S > LONGEST_LEASE_S
 
 
-def test_silence_with_all_relays_off_is_rest(program: Program) -> None:
-    program.says(b"+")
-    program.says(b"-")
-    program._thread.join(2 * SILENCE_S)
-    assert program.alive()
-    assert program.off_s is None
-
-
-def test_a_farewell_needs_no_action(program: Program) -> None:
-    program.says(b"+-.")
-    assert program.watch_ended()
-    assert program.off_s is None
-    assert program.alive()
-
-
 # --- what it does
 
 
@@ -213,18 +198,9 @@ def test_lines_that_are_never_released_are_reported() -> None:
 # --- how it gets its lines
 
 
-def test_lines_survive_the_way_as_text() -> None:
-    assert RelayLines.from_text(LINES.to_text()) == LINES
-
-
 @pytest.mark.parametrize(
     "text", ["", "/dev/gpiochip0", "/dev/gpiochip0 low a=1", "x active-low a", "x active-low a=b", "x active-low a=1=2"]
 )
 def test_any_other_text_is_refused(text: str) -> None:
     with pytest.raises(HardwareError, match="not a description of relay lines"):
         RelayLines.from_text(text)
-
-
-def test_used_wrongly_it_says_how(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([]) == 2
-    assert "sentinel_process LINES" in capsys.readouterr().err

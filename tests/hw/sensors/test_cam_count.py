@@ -10,7 +10,6 @@ import pytest
 from hw.ports import Direction
 from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
-from rotator.config.kinds.relay_pulse import PulseAxisTable
 
 PLUS, MINUS, OFF = Direction.PLUS, Direction.MINUS, Direction.OFF
 CAM = Cam(spacing_deg=5.0, closed_deg=1.0, closes_at_deg=0.0, speed_dps=6.0, coast_s=0.5)
@@ -20,12 +19,6 @@ def at(angle_deg: float, *, closed: bool, cam: Cam = CAM) -> CamCount:
     count = CamCount(cam)
     assert count.place(0.0, angle_deg, closed=closed)
     return count
-
-
-def test_a_cam_is_described_as_in_a_configuration_that_leaves_the_rest_out() -> None:
-    table, cam = PulseAxisTable(), Cam(5.0, 1.0, 0.0, 6.0)
-    assert (cam.coast_s, cam.play_deg) == (table.coast_s, table.play_deg)
-    assert cam.lag_s == pytest.approx(0.1), "a fifth: after five of them the motor stands"
 
 
 # --- placed with an error
@@ -47,12 +40,6 @@ def test_within_its_error_it_stands_where_the_contact_allows(
     count = CamCount(CAM)
     assert count.place(0.0, angle_deg, closed=closed, within_deg=0.5)
     assert (count.zone, count.angle_deg(), count.trouble) == (zone, stands_deg, "")
-
-
-def test_the_play_is_room_below_the_low_edge_of_a_zone() -> None:
-    count = CamCount(Cam(5.0, 1.0, 0.0, 6.0, play_deg=0.2))
-    assert count.place(0.0, 4.7, closed=True, within_deg=0.4)
-    assert (count.zone, count.angle_deg()) == (2, 4.8)
 
 
 @pytest.mark.parametrize(
@@ -104,14 +91,6 @@ def test_unread_changes_lead_the_count_on_in_the_direction_of_the_motor(
     assert count.changes == 1
 
 
-def test_the_first_trouble_stays() -> None:
-    count = at(5.5, closed=True)
-    count.drive(0.0, PLUS)
-    count.change(1.0, closed=False, lost=2)
-    count.change(1.7, closed=False)
-    assert count.trouble == "2 changes of the contact went unseen"
-
-
 # --- looking ahead
 
 
@@ -138,14 +117,6 @@ def turning_at_rest() -> tuple[CamCount, float]:
         at_s += pause_s
         count.change(at_s, closed=change % 2 == 0)
     return count, at_s
-
-
-def test_it_turns_as_long_as_changes_come_at_that_pace() -> None:
-    count, at_s = turning_at_rest()
-    count.advance(at_s + 0.3)
-    assert count.turning
-    count.advance(at_s + 1.0)
-    assert not count.turning
 
 
 def test_a_relay_that_closes_ends_that_and_four_changes_show_it_again() -> None:

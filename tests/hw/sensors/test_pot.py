@@ -9,7 +9,7 @@ from firmware_sim.chips.ads1115 import Ads1115 as SimAds1115
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.ads1115 import Ads1115
-from hw.ports import AngleSource, HardwareError
+from hw.ports import HardwareError
 from hw.sensors.pot import LEAST_REFERENCE_V, REFERENCE_EVERY_S, PotSensor, Reference
 
 WIPER, SUPPLY = 0, 3
@@ -44,17 +44,6 @@ class Bench:
 @pytest.fixture
 def bench() -> Bench:
     return Bench()
-
-
-def test_the_angle_is_measured(bench: Bench) -> None:
-    assert bench.ratiometric().source is AngleSource.MEASURED
-
-
-@pytest.mark.parametrize("share", [0.0, 0.05, 0.5, 0.95, 1.0])
-def test_the_reading_is_the_share_of_the_supply(bench: Bench, share: float) -> None:
-    bench.share = share
-    assert PotSensor(bench.adc, WIPER, 3.3).read() == pytest.approx(share, abs=STEP)
-    assert bench.ratiometric().read() == pytest.approx(share, abs=STEP)
 
 
 def test_without_a_reference_a_drooping_supply_looks_like_an_angle(bench: Bench) -> None:
@@ -102,11 +91,6 @@ def test_a_converter_that_is_gone_is_said_by_the_bus(bench: Bench) -> None:
     bench.wire.gone.add(0x48)
     with pytest.raises(HardwareError, match="does not answer"):
         bench.ratiometric().read()
-
-
-def test_a_supply_may_be_a_whole_number_of_volts(bench: Bench) -> None:
-    bench.supply_v = 3.0
-    assert PotSensor(bench.adc, WIPER, 3).read() == pytest.approx(0.25, abs=STEP)
 
 
 @pytest.mark.parametrize("look", range(1, 9))

@@ -14,7 +14,7 @@ import pytest
 from firmware_sim.parts.motor import MotorSpec
 from firmware_sim.rotors.relay_pulse import U100_MOTOR
 from hw.buses.gpio import GpioContact
-from hw.ports import AngleSource, Axis, Direction, HardwareError
+from hw.ports import Axis, Direction, HardwareError
 from hw.sensors.cam import Cam
 from hw.sensors.pulses import PulseCounter
 from tests.hw.sensors.pulse_rig import AZ, CAM, PATH, STANDS_S, PulseRig
@@ -25,29 +25,6 @@ MOVES = examples(2500)
 
 
 # --- angles
-
-
-def test_it_says_how_it_knows() -> None:
-    assert PulseRig().counter.source is AngleSource.COUNTED
-
-
-def test_a_long_run_is_followed_all_the_way() -> None:
-    rig = PulseRig(100.0)
-    rig.wait(1.0)
-    for _ in range(400):
-        rig.run(PLUS, 0.1, cycle_s=0.1)
-        assert rig.counter.read() == pytest.approx(rig.shaft_deg, abs=0.5)
-    assert rig.shaft_deg > 330.0
-    assert rig.off_by == 0
-
-
-def test_it_does_not_matter_when_it_is_read() -> None:
-    often, seldom = PulseRig(100.0), PulseRig(100.0)
-    often.move(PLUS, 10.0)
-    seldom.run(PLUS, 10.0, cycle_s=0.39)
-    seldom.wait(STANDS_S, cycle_s=STANDS_S)
-    assert often.counter.zone == seldom.counter.zone
-    assert often.counter.read() == pytest.approx(seldom.counter.read(), abs=0.01)
 
 
 def test_read_late_the_kernel_has_kept_every_moment() -> None:
@@ -143,21 +120,6 @@ def test_other_cams(spacing_deg: float, closed_deg: float, play_deg: float) -> N
 # --- what goes wrong
 
 
-def test_closures_that_close_twice_count_once() -> None:
-    rig = PulseRig(30.0)
-    rig.rotor.inject("azimuth-pulses-doubled")
-    rig.move(PLUS, 40.0)
-    rig.move(MINUS, 40.0)
-    assert (rig.off_by, rig.counter.trouble) == (0, "")
-
-
-def test_missed_pulses_are_noticed() -> None:
-    rig = PulseRig(30.0)
-    rig.rotor.inject("azimuth-pulses-missed")
-    rig.move(PLUS, 8.0)
-    assert "too late" in rig.counter.trouble
-
-
 @pytest.mark.parametrize(
     "fault", ["azimuth-contact-stuck-open", "azimuth-contact-stuck-closed", "azimuth-motor-stalled"]
 )
@@ -205,23 +167,6 @@ def test_a_motor_much_slower_than_it_is_said_to_be_makes_the_count_doubtful_not_
 
 
 # --- placing
-
-
-def test_before_it_is_placed_the_count_is_worth_nothing() -> None:
-    rig = PulseRig()
-    fresh = PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.tapped, CAM, rig.clock)
-    assert fresh.trouble == "it has not been placed yet"
-
-
-def test_a_kept_count_goes_on_where_it_was() -> None:
-    rig = PulseRig(100.0)
-    rig.move(PLUS, 7.3)
-    kept_deg = rig.counter.read()
-    rig.contact.close()
-    again = PulseCounter(AZ, contact(rig, 17), rig.tapped, CAM, rig.clock)
-    assert again.place(kept_deg)
-    assert again.zone == rig.rotor.azimuth.contact.zone
-    assert again.read() == kept_deg
 
 
 def test_a_kept_count_that_the_contact_contradicts_is_not_believed() -> None:

@@ -47,11 +47,6 @@ def test_a_closed_switch_pulls_its_line_to_ground_and_an_open_one_leaves_it_to_t
     assert inputs.read() == {"stop": False, "calibrate": False}
 
 
-def test_what_is_closed_already_is_read_closed(gpio: SimGpio) -> None:
-    close(gpio, 16, 20)
-    assert GpioInputs(gpio, PATH, PINS, consumer="test").read() == {"stop": True, "calibrate": True}
-
-
 def test_a_line_that_another_program_holds_is_named(gpio: SimGpio) -> None:
     inputs = GpioInputs(gpio, PATH, PINS, consumer="test")
     with pytest.raises(LinesBusyError, match="cannot take stop on GPIO16: a line is taken"):
@@ -82,10 +77,6 @@ def test_lines_that_cannot_be_read_are_named() -> None:
 def limits(gpio: SimGpio) -> LimitSwitches:
     close(gpio, *LIMIT_PINS.values())
     return LimitSwitches(GpioInputs(gpio, PATH, LIMIT_PINS, consumer="limits"), LIMIT_PINS)
-
-
-def test_closed_switches_block_nothing(limits: LimitSwitches) -> None:
-    assert limits.blocked() == {Axis.AZIMUTH: NO_WAY, Axis.ELEVATION: NO_WAY}
 
 
 @pytest.mark.parametrize("name", LIMIT_PINS)
