@@ -49,7 +49,7 @@ async def answer(port: int, from_host: str) -> bytes:
         writer.transport.abort()
 
 
-def test_a_stranger_is_turned_away_and_told_of_once(
+async def test_a_stranger_is_turned_away_and_told_of_once(
     wire: Wire, port: int, bench: Any, running: Callable[[TcpLink], Any], log: Any
 ) -> None:
     """Every address of 127.0.0.0/8 is this machine's, so it can come as somebody else."""
@@ -60,26 +60,20 @@ def test_a_stranger_is_turned_away_and_told_of_once(
         sessions += 1
         return bench.gs232()
 
-    async def talk() -> None:
-        async with running(TcpLink(wire, "127.0.0.1", port, session, allowed=Allowed(["127.0.0.2"]))):
-            for _ in range(5):
-                assert await answer(port, "127.0.0.3") == b""
-            assert sessions == 0
-            assert await answer(port, "127.0.0.2") == b"AZ=235  EL=025\r\n"
-
-    asyncio.run(talk())
+    async with running(TcpLink(wire, "127.0.0.1", port, session, allowed=Allowed(["127.0.0.2"]))):
+        for _ in range(5):
+            assert await answer(port, "127.0.0.3") == b""
+        assert sessions == 0
+        assert await answer(port, "127.0.0.2") == b"AZ=235  EL=025\r\n"
     assert log.said == ["link: 127.0.0.3 is not in allow: turned away"]
 
 
-def test_how_many_is_the_link_s_own(
+async def test_how_many_is_the_link_s_own(
     wire: Wire, port: int, bench: Any, running: Callable[[TcpLink], Any], log: Any
 ) -> None:
-    async def talk() -> None:
-        async with running(TcpLink(wire, "127.0.0.1", port, bench.gs232, most_clients=1)):
-            _, first = await asyncio.open_connection("127.0.0.1", port)
-            for _ in range(3):
-                assert await answer(port, "127.0.0.1") == b""
-            first.transport.abort()
-
-    asyncio.run(talk())
+    async with running(TcpLink(wire, "127.0.0.1", port, bench.gs232, most_clients=1)):
+        _, first = await asyncio.open_connection("127.0.0.1", port)
+        for _ in range(3):
+            assert await answer(port, "127.0.0.1") == b""
+        first.transport.abort()
     assert log.said == ["link: 1 clients already, one more is turned away"]

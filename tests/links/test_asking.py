@@ -82,69 +82,57 @@ def link(wire: Wire, port: int, bench: Any) -> AskingLink:
     return AskingLink(wire, "127.0.0.1", port, follower, every_s=0.01, silence_s=0.3, retry_s=0.01)
 
 
-def test_it_follows_what_changes(link: AskingLink, port: int, running: Running, bench: Any) -> None:
-    async def talk() -> None:
-        async with listening(port, Server()) as server, running(link):
-            await server.questions(3)
-            assert link.wire.state == "open"
-            assert bench.drives() == (0, 0)
-            server.say = b"300.00\n80.00\n"
-            await server.questions(3)
-            assert bench.drives() == (1, 1)
-            assert bench.loop.status.wanted_azimuth_deg == 300
-            assert server.met == 1
-        assert link.wire.state == "closed"
-
-    asyncio.run(talk())
-
-
-def test_it_asks_no_faster_than_it_is_told_to(wire: Wire, port: int, bench: Any, running: Running) -> None:
-    async def talk() -> None:
-        clock = asyncio.get_running_loop().time
-        follower = RotctldFollower(Client(bench.loop, bench.mount, Source("follow", 1)), 1.0)
-        slow = AskingLink(wire, "127.0.0.1", port, lambda: follower, every_s=0.05)
-        async with listening(port, Server()) as server, running(slow):
-            await server.questions(1)
-            begun_s = clock()
-            await server.questions(4)
-            assert clock() - begun_s >= 4 * 0.05 - 0.02
-
-    asyncio.run(talk())
-
-
-def test_a_server_that_is_not_there_yet_is_waited_for(
-    link: AskingLink, port: int, running: Running, bench: Any, log: Any
-) -> None:
-    async def talk() -> None:
-        async with running(link):
-            await log.wait(f"127.0.0.1:{port} cannot be reached: Connection refused")
-            assert link.wire.state == "waiting for it"
-            async with listening(port, Server()) as server:
-                await server.questions(2)
-                await log.wait(f"127.0.0.1:{port} answers")
-            await log.wait("cannot be reached", times=2)
-        assert log.count("cannot be reached") == 2
+async def test_it_follows_what_changes(link: AskingLink, port: int, running: Running, bench: Any) -> None:
+    async with listening(port, Server()) as server, running(link):
+        await server.questions(3)
+        assert link.wire.state == "open"
         assert bench.drives() == (0, 0)
+        server.say = b"300.00\n80.00\n"
+        await server.questions(3)
+        assert bench.drives() == (1, 1)
+        assert bench.loop.status.wanted_azimuth_deg == 300
+        assert server.met == 1
+    assert link.wire.state == "closed"
 
-    asyncio.run(talk())
+
+async def test_it_asks_no_faster_than_it_is_told_to(wire: Wire, port: int, bench: Any, running: Running) -> None:
+    clock = asyncio.get_running_loop().time
+    follower = RotctldFollower(Client(bench.loop, bench.mount, Source("follow", 1)), 1.0)
+    slow = AskingLink(wire, "127.0.0.1", port, lambda: follower, every_s=0.05)
+    async with listening(port, Server()) as server, running(slow):
+        await server.questions(1)
+        begun_s = clock()
+        await server.questions(4)
+        assert clock() - begun_s >= 4 * 0.05 - 0.02
 
 
-def test_back_again_it_points_somewhere_else_and_nothing_moves(
+async def test_a_server_that_is_not_there_yet_is_waited_for(
     link: AskingLink, port: int, running: Running, bench: Any, log: Any
 ) -> None:
-    async def talk() -> None:
-        async with running(link):
-            async with listening(port, Server()) as server:
-                await server.questions(2)
-            await log.wait("has closed the connection")
-            async with listening(port, Server(b"0.00\n0.00\n")) as server:
-                await server.questions(3)
-                assert bench.drives() == (0, 0)
-                server.say = b"182.00\n0.00\n"
-                await server.questions(3)
-                assert bench.drives() == (-1, -1)
+    async with running(link):
+        await log.wait(f"127.0.0.1:{port} cannot be reached: Connection refused")
+        assert link.wire.state == "waiting for it"
+        async with listening(port, Server()) as server:
+            await server.questions(2)
+            await log.wait(f"127.0.0.1:{port} answers")
+        await log.wait("cannot be reached", times=2)
+    assert log.count("cannot be reached") == 2
+    assert bench.drives() == (0, 0)
 
-    asyncio.run(talk())
+
+async def test_back_again_it_points_somewhere_else_and_nothing_moves(
+    link: AskingLink, port: int, running: Running, bench: Any, log: Any
+) -> None:
+    async with running(link):
+        async with listening(port, Server()) as server:
+            await server.questions(2)
+        await log.wait("has closed the connection")
+        async with listening(port, Server(b"0.00\n0.00\n")) as server:
+            await server.questions(3)
+            assert bench.drives() == (0, 0)
+            server.say = b"182.00\n0.00\n"
+            await server.questions(3)
+            assert bench.drives() == (-1, -1)
 
 
 @pytest.mark.parametrize(
@@ -157,77 +145,62 @@ def test_back_again_it_points_somewhere_else_and_nothing_moves(
         (b"\x00" * 70_000 + b"\n", "does not speak the protocol: it says more than 128 bytes in a line"),
     ],
 )
-def test_a_server_of_no_use_moves_nothing_and_is_told_once(  # noqa: PLR0917
+async def test_a_server_of_no_use_moves_nothing_and_is_told_once(  # noqa: PLR0917
     link: AskingLink, port: int, running: Running, bench: Any, log: Any, say: bytes | None, told: str
 ) -> None:
-    async def talk() -> None:
-        async with listening(port, Server(say)) as server, running(link):
-            await server.questions(4)
-            assert server.met >= 3
-        assert log.count(told) == 1
-        assert len(log.said) == 1
-        assert bench.drives() == (0, 0)
-
-    asyncio.run(talk())
+    async with listening(port, Server(say)) as server, running(link):
+        await server.questions(4)
+        assert server.met >= 3
+    assert log.count(told) == 1
+    assert len(log.said) == 1
+    assert bench.drives() == (0, 0)
 
 
 @pytest.mark.parametrize(
     "bad", [b"HTTP/1.1 400 Bad Request\r\n", b"\x00" * 200, b"RPRT -6\n", b"999.00\n20.00\n", b"10.00\n", None]
 )
-def test_after_a_bad_answer_a_good_one_is_compared_with_the_last_good_one(
+async def test_after_a_bad_answer_a_good_one_is_compared_with_the_last_good_one(
     link: AskingLink, port: int, running: Running, bench: Any, bad: bytes | None
 ) -> None:
     """The other rotor has turned meanwhile, and stands: this antenna has to get there too."""
 
-    async def talk() -> None:
-        async with listening(port, Server()) as server, running(link):
-            await server.questions(3)
-            server.say = bad
-            await server.questions(2)
-            server.say = b"300.00\n80.00\n"
-            await server.questions(3)
-            assert bench.drives() == (1, 1)
-            assert bench.loop.status.wanted_azimuth_deg == 300
-
-    asyncio.run(talk())
+    async with listening(port, Server()) as server, running(link):
+        await server.questions(3)
+        server.say = bad
+        await server.questions(2)
+        server.say = b"300.00\n80.00\n"
+        await server.questions(3)
+        assert bench.drives() == (1, 1)
+        assert bench.loop.status.wanted_azimuth_deg == 300
 
 
-def test_a_server_that_knows_no_position_is_asked_on_and_told_once(
+async def test_a_server_that_knows_no_position_is_asked_on_and_told_once(
     link: AskingLink, port: int, running: Running, bench: Any, log: Any
 ) -> None:
-    async def talk() -> None:
-        async with listening(port, Server(b"RPRT -6\n")) as server, running(link):
-            await server.questions(4)
-            server.say = b"10.00\n20.00\n"
-            await log.wait("answers", times=2)
-            assert server.met == 1
-        assert log.said == [
-            f"link: 127.0.0.1:{port} answers 'RPRT -6' for a position",
-            f"link: 127.0.0.1:{port} answers",
-        ]
-        assert bench.drives() == (0, 0)
-
-    asyncio.run(talk())
+    async with listening(port, Server(b"RPRT -6\n")) as server, running(link):
+        await server.questions(4)
+        server.say = b"10.00\n20.00\n"
+        await log.wait("answers", times=2)
+        assert server.met == 1
+    assert log.said == [
+        f"link: 127.0.0.1:{port} answers 'RPRT -6' for a position",
+        f"link: 127.0.0.1:{port} answers",
+    ]
+    assert bench.drives() == (0, 0)
 
 
-def test_a_server_that_hangs_up(link: AskingLink, port: int, running: Running, bench: Any, log: Any) -> None:
-    async def talk() -> None:
-        async with listening(port, Server()) as server, running(link):
-            for times in (1, 2):
-                await server.questions(2)
-                server.hang_up()
-                await log.wait("has closed the connection", times)
+async def test_a_server_that_hangs_up(link: AskingLink, port: int, running: Running, bench: Any, log: Any) -> None:
+    async with listening(port, Server()) as server, running(link):
+        for times in (1, 2):
             await server.questions(2)
-            assert server.met == 3
-        assert bench.drives() == (0, 0)
+            server.hang_up()
+            await log.wait("has closed the connection", times)
+        await server.questions(2)
+        assert server.met == 3
+    assert bench.drives() == (0, 0)
 
-    asyncio.run(talk())
 
-
-def test_a_name_that_no_machine_has(wire: Wire, running: Running, new_ear: type[Any], log: Any) -> None:
-    async def talk() -> None:
-        link = AskingLink(wire, "no host", 4533, new_ear, every_s=0.01, retry_s=0.01)
-        async with running(link):
-            await log.wait("no host:4533 cannot be reached: ")
-
-    asyncio.run(talk())
+async def test_a_name_that_no_machine_has(wire: Wire, running: Running, new_ear: type[Any], log: Any) -> None:
+    link = AskingLink(wire, "no host", 4533, new_ear, every_s=0.01, retry_s=0.01)
+    async with running(link):
+        await log.wait("no host:4533 cannot be reached: ")

@@ -61,21 +61,18 @@ async def running(path: Path) -> AsyncIterator[ConsoleSocket]:
         await asyncio.sleep(0)  # the clients' last turn
 
 
-def test_folders_with_long_names_have_a_console_too(tmp_path: Path) -> None:
+async def test_folders_with_long_names_have_a_console_too(tmp_path: Path) -> None:
     """The kernel takes no socket's path above 107 bytes."""
     path = tmp_path / ("long name " * 10) / ("ü" * 60) / "console"
 
-    async def talk() -> None:
-        async with running(path):
-            place = await asyncio.to_thread(connected, path)
-            assert place is not None
-            reader, writer = await asyncio.open_unix_connection(sock=place)
-            writer.write(b"stop\n")
-            assert await asyncio.wait_for(reader.readline(), PATIENCE_S) == b"stop\n"
-            writer.close()
-            await writer.wait_closed()
-
-    asyncio.run(talk())
+    async with running(path):
+        place = await asyncio.to_thread(connected, path)
+        assert place is not None
+        reader, writer = await asyncio.open_unix_connection(sock=place)
+        writer.write(b"stop\n")
+        assert await asyncio.wait_for(reader.readline(), PATIENCE_S) == b"stop\n"
+        writer.close()
+        await writer.wait_closed()
     assert not path.exists()
     assert connected(path) is None
 
@@ -109,82 +106,64 @@ async def person(path: Path) -> AsyncIterator[Person]:
         writer.transport.abort()
 
 
-def test_each_has_a_conversation_of_its_own(path: Path) -> None:
-    async def talk() -> None:
-        async with running(path), person(path) as one, person(path) as other:
-            one.writer.write(b"where ")
-            assert await other.ask(b"stop") == b"stop\n"
-            assert await one.ask(b"is it") == b"where is it\n"
-
-    asyncio.run(talk())
+async def test_each_has_a_conversation_of_its_own(path: Path) -> None:
+    async with running(path), person(path) as one, person(path) as other:
+        one.writer.write(b"where ")
+        assert await other.ask(b"stop") == b"stop\n"
+        assert await one.ask(b"is it") == b"where is it\n"
 
 
-def test_whoever_says_all_at_once_and_closes_hears_the_answer(path: Path) -> None:
-    async def talk() -> None:
-        async with running(path), person(path) as one:
-            one.writer.write(b"stop\nstatus\n")
-            one.writer.write_eof()
-            assert [await one.answer() for _ in range(3)] == [b"stop\n", b"status\n", b""]
-
-    asyncio.run(talk())
+async def test_whoever_says_all_at_once_and_closes_hears_the_answer(path: Path) -> None:
+    async with running(path), person(path) as one:
+        one.writer.write(b"stop\nstatus\n")
+        one.writer.write_eof()
+        assert [await one.answer() for _ in range(3)] == [b"stop\n", b"status\n", b""]
 
 
-def test_it_is_the_owner_s_and_the_group_s_and_gone_at_the_end(path: Path) -> None:
-    async def talk() -> None:
-        async with running(path) as console:
-            assert stat.S_IMODE(path.stat().st_mode) == 0o660
-            assert console.wire.state == "listening"
-        assert not path.exists()
-        assert console.wire.state == "closed"
-
-    asyncio.run(talk())
+async def test_it_is_the_owner_s_and_the_group_s_and_gone_at_the_end(path: Path) -> None:
+    async with running(path) as console:
+        assert stat.S_IMODE(path.stat().st_mode) == 0o660
+        assert console.wire.state == "listening"
+    assert not path.exists()
+    assert console.wire.state == "closed"
 
 
-def test_one_that_goes_is_forgotten(path: Path) -> None:
-    async def talk() -> None:
-        async with running(path) as console:
-            async with person(path) as one:
-                await one.ask(b"status")
-                assert len(console.clients) == 1
-            async with asyncio.timeout(PATIENCE_S):
-                while console.clients:
-                    await asyncio.sleep(0)
-
-    asyncio.run(talk())
+async def test_one_that_goes_is_forgotten(path: Path) -> None:
+    async with running(path) as console:
+        async with person(path) as one:
+            await one.ask(b"status")
+            assert len(console.clients) == 1
+        async with asyncio.timeout(PATIENCE_S):
+            while console.clients:
+                await asyncio.sleep(0)
 
 
-def test_one_that_reads_nothing_is_dropped_and_costs_the_others_nothing(
+async def test_one_that_reads_nothing_is_dropped_and_costs_the_others_nothing(
     path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    async def talk() -> None:
-        async with running(path) as console, person(path) as deaf, person(path) as other:
-            await other.ask(b"status")
-            deaf.writer.write(b"much\n" * (UNREAD_LIMIT // 100))
-            async with asyncio.timeout(PATIENCE_S):
-                while len(console.clients) != 1:
-                    await asyncio.sleep(0)
-            assert await other.ask(b"stop") == b"stop\n"
-
-    asyncio.run(talk())
+    async with running(path) as console, person(path) as deaf, person(path) as other:
+        await other.ask(b"status")
+        deaf.writer.write(b"much\n" * (UNREAD_LIMIT // 100))
+        async with asyncio.timeout(PATIENCE_S):
+            while len(console.clients) != 1:
+                await asyncio.sleep(0)
+        assert await other.ask(b"stop") == b"stop\n"
     assert caplog.messages == ["console: a client reads nothing: dropped"]
 
 
-def test_the_one_that_is_silent_longest_makes_room(path: Path) -> None:
-    async def talk() -> None:
-        async with running(path) as console:
-            people = [Person(*await asyncio.open_unix_connection(str(path))) for _ in range(MOST_CLIENTS)]
-            for each in people:
-                await each.ask(b"status")
-            await people[0].ask(b"still here")
-            async with person(path) as late:
-                assert await late.ask(b"stop") == b"stop\n"
-                await people[1].is_dropped()
-                assert await people[0].ask(b"and here") == b"and here\n"
-                assert len(console.clients) == MOST_CLIENTS
-            for each in people:
-                each.writer.transport.abort()
-
-    asyncio.run(talk())
+async def test_the_one_that_is_silent_longest_makes_room(path: Path) -> None:
+    async with running(path) as console:
+        people = [Person(*await asyncio.open_unix_connection(str(path))) for _ in range(MOST_CLIENTS)]
+        for each in people:
+            await each.ask(b"status")
+        await people[0].ask(b"still here")
+        async with person(path) as late:
+            assert await late.ask(b"stop") == b"stop\n"
+            await people[1].is_dropped()
+            assert await people[0].ask(b"and here") == b"and here\n"
+            assert len(console.clients) == MOST_CLIENTS
+        for each in people:
+            each.writer.transport.abort()
 
 
 # --- places
@@ -200,31 +179,25 @@ def test_two_boxes_with_monitors_in_one_folder_have_a_console_each() -> None:
     assert console_path(Path("run/console")) != Path("run/console")
 
 
-def test_what_a_dead_box_left_is_replaced(path: Path) -> None:
-    async def talk() -> None:
-        path.parent.mkdir()
-        left = await asyncio.start_unix_server(lambda *_: None, str(path))
-        left.close()
-        assert path.is_socket()
-        async with running(path), person(path) as one:
-            assert await one.ask(b"status") == b"status\n"
-
-    asyncio.run(talk())
+async def test_what_a_dead_box_left_is_replaced(path: Path) -> None:
+    path.parent.mkdir()
+    left = await asyncio.start_unix_server(lambda *_: None, str(path))
+    left.close()
+    assert path.is_socket()
+    async with running(path), person(path) as one:
+        assert await one.ask(b"status") == b"status\n"
 
 
 async def _ends_by_itself(path: Path) -> None:
     await asyncio.wait_for(ConsoleSocket(path, Parrot).run(), PATIENCE_S)
 
 
-def test_another_box_has_the_place(path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    async def talk() -> None:
-        async with running(path), person(path) as one:
-            await _ends_by_itself(path)
-            assert await one.ask(b"status") == b"status\n"
-            async with person(path) as other:
-                assert await other.ask(b"status") == b"status\n"
-
-    asyncio.run(talk())
+async def test_another_box_has_the_place(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    async with running(path), person(path) as one:
+        await _ends_by_itself(path)
+        assert await one.ask(b"status") == b"status\n"
+        async with person(path) as other:
+            assert await other.ask(b"status") == b"status\n"
     assert caplog.messages == [f"{path}: another box uses it; this one has no console"]
 
 

@@ -124,10 +124,7 @@ def test_a_crowd_of_idle_connections_is_turned_away() -> None:
     assert asyncio.run(crowd()) == [True, True]
 
 
-def test_a_port_that_is_taken_leaves_the_box_running(caplog: pytest.LogCaptureFixture) -> None:
-    async def twice() -> None:
-        async with serving([TLE]) as port:
-            await ElementsServer("127.0.0.1", port, lambda: KNOWN, allowed=Allowed()).run()
-
-    asyncio.run(twice())
+async def test_a_port_that_is_taken_leaves_the_box_running(caplog: pytest.LogCaptureFixture) -> None:
+    async with serving([TLE]) as port:
+        await ElementsServer("127.0.0.1", port, lambda: KNOWN, allowed=Allowed()).run()
     assert "[sky] serve: 127.0.0.1:" in caplog.text

@@ -37,54 +37,44 @@ def link(wire: Wire, path: Path, bench: Any) -> PtyLink:
 # --- the symlink
 
 
-def test_it_is_there_while_the_link_runs(link: PtyLink, path: Path, running: Running) -> None:
-    async def look() -> None:
-        async with running(link):
-            assert os.readlink(path).startswith("/dev/pts/")
-            assert link.wire.state == "ready"
-        assert not path.is_symlink()
-        assert link.wire.state == "closed"
-
-    asyncio.run(look())
+async def test_it_is_there_while_the_link_runs(link: PtyLink, path: Path, running: Running) -> None:
+    async with running(link):
+        assert os.readlink(path).startswith("/dev/pts/")
+        assert link.wire.state == "ready"
+    assert not path.is_symlink()
+    assert link.wire.state == "closed"
 
 
-def test_whoever_may_use_serial_ports_may_open_it(link: PtyLink, path: Path, running: Running) -> None:
+async def test_whoever_may_use_serial_ports_may_open_it(link: PtyLink, path: Path, running: Running) -> None:
     group = next((each for each in grp.getgrall() if each.gr_name == "dialout"), None)
     if group is None or (os.getuid() != 0 and group.gr_gid not in os.getgroups()):
         pytest.skip("this user may not give files to the group dialout: sudo adduser $USER dialout")
 
-    async def look() -> None:
-        async with running(link):
-            terminal = path.stat()
-            assert terminal.st_gid == group.gr_gid
-            assert stat.S_IMODE(terminal.st_mode) == 0o660
-
-    asyncio.run(look())
+    async with running(link):
+        terminal = path.stat()
+        assert terminal.st_gid == group.gr_gid
+        assert stat.S_IMODE(terminal.st_mode) == 0o660
 
 
-def test_one_left_by_a_program_that_died_is_replaced(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
+async def test_one_left_by_a_program_that_died_is_replaced(
+    link: PtyLink, path: Path, running: Running, end: OpenEnd
+) -> None:
     path.parent.mkdir()
     path.symlink_to("/dev/pts/99999")
     path.with_name(".gs232.lock").touch()
 
-    async def look() -> None:
-        async with running(link):
-            assert await end(path).ask(b"C2\r") == POSITION
-
-    asyncio.run(look())
+    async with running(link):
+        assert await end(path).ask(b"C2\r") == POSITION
 
 
-def test_one_in_use_is_refused_and_goes_on(
+async def test_one_in_use_is_refused_and_goes_on(
     link: PtyLink, path: Path, running: Running, end: OpenEnd, new_ear: type[Any]
 ) -> None:
-    async def look() -> None:
-        async with running(link):
-            with pytest.raises(LinkError) as refused:
-                await PtyLink(Wire("second", "test", "here"), path, new_ear).open()
-            assert str(refused.value) == f"{path}: another program of this kind has it"
-            assert await end(path).ask(b"C2\r") == POSITION
-
-    asyncio.run(look())
+    async with running(link):
+        with pytest.raises(LinkError) as refused:
+            await PtyLink(Wire("second", "test", "here"), path, new_ear).open()
+        assert str(refused.value) == f"{path}: another program of this kind has it"
+        assert await end(path).ask(b"C2\r") == POSITION
 
 
 def test_a_file_of_the_user_s_is_refused_and_left_alone(link: PtyLink, path: Path) -> None:
@@ -99,18 +89,15 @@ def test_a_file_of_the_user_s_is_refused_and_left_alone(link: PtyLink, path: Pat
 
 
 @pytest.mark.parametrize("orders", ["W180 045\r", "S\r", "C2\nS\n", "P 180 45\n", "AZ10.5 EL2.0\n", "", "p\np\np\n"])
-def test_orders_written_while_no_box_ran_are_moved_aside(
+async def test_orders_written_while_no_box_ran_are_moved_aside(
     link: PtyLink, path: Path, running: Running, orders: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     """A shell makes a plain file of `printf 'W180 045\\r' > run/gs232` then: it must not keep the box from starting."""
     path.parent.mkdir()
     path.write_bytes(orders.encode())
 
-    async def look() -> None:
-        async with running(link):
-            assert os.readlink(path).startswith("/dev/pts/")
-
-    asyncio.run(look())
+    async with running(link):
+        assert os.readlink(path).startswith("/dev/pts/")
     assert path.with_name("gs232.was-a-file").read_bytes() == orders.encode()
     assert "written while no box was running" in caplog.text
 
@@ -141,113 +128,57 @@ def test_a_place_that_cannot_be_is_refused(link: PtyLink, path: Path) -> None:
     )
 
 
-def test_only_its_own_symlink_is_removed(link: PtyLink, path: Path, running: Running, tmp_path: Path) -> None:
-    async def look() -> None:
-        async with running(link):
-            path.unlink()
-            path.symlink_to(tmp_path)
-
-    asyncio.run(look())
+async def test_only_its_own_symlink_is_removed(link: PtyLink, path: Path, running: Running, tmp_path: Path) -> None:
+    async with running(link):
+        path.unlink()
+        path.symlink_to(tmp_path)
     assert path.readlink() == tmp_path
 
 
-def test_closed_it_can_be_opened_again(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
-    async def look() -> None:
-        for _ in range(2):
-            async with running(link):
-                assert await end(path).ask(b"C2\r")
-
-    asyncio.run(look())
+async def test_closed_it_can_be_opened_again(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
+    for _ in range(2):
+        async with running(link):
+            assert await end(path).ask(b"C2\r")
 
 
 # --- the line
 
 
-def test_any_byte_arrives_as_it_is_and_none_is_echoed(
+async def test_any_byte_arrives_as_it_is_and_none_is_echoed(
     wire: Wire, path: Path, running: Running, end: OpenEnd, new_ear: type[Any]
 ) -> None:
     """Control-C, control-S, CR and the rest are bytes here, not keys."""
     everything = bytes(range(256))
 
-    async def look() -> None:
-        ear = new_ear()
-        async with running(PtyLink(wire, path, lambda: ear)):
-            client = end(path)
-            await client.write(everything)
-            assert await ear.hears(len(everything)) == everything
-            assert client.nothing()
-
-    asyncio.run(look())
-
-
-def test_no_banner_and_no_answer_to_what_asks_nothing(
-    link: PtyLink, path: Path, running: Running, end: OpenEnd
-) -> None:
-    async def look() -> None:
-        async with running(link):
-            assert await end(path).ask(b"S\r\r\n\nC2\r") == POSITION
-
-    asyncio.run(look())
-
-
-def test_a_client_leaves_and_comes_back(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
-    async def look() -> None:
-        async with running(link) as task:
-            for _ in range(3):
-                client = end(path)
-                assert await client.ask(b"C2\r") == POSITION
-                client.close()
-            assert not task.done()
-
-    asyncio.run(look())
-
-
-def test_one_read_is_one_reply(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
-    async def look() -> None:
-        async with running(link):
-            client = end(path)
-            for _ in range(300):
-                assert await client.ask(b"C2\r") == POSITION
-
-    asyncio.run(look())
-
-
-def test_orders_act(link: PtyLink, path: Path, running: Running, end: OpenEnd, bench: Any) -> None:
-    async def look() -> None:
-        async with running(link):
-            client = end(path)
-            await client.ask(b"W300 080\rC2\r")
-            assert bench.drives() == (1, 1)
-            await client.ask(b"S\rC2\r")
-            assert bench.drives() == (0, 0)
-
-    asyncio.run(look())
+    ear = new_ear()
+    async with running(PtyLink(wire, path, lambda: ear)):
+        client = end(path)
+        await client.write(everything)
+        assert await ear.hears(len(everything)) == everything
+        assert client.nothing()
 
 
 @pytest.mark.parametrize("dialect", Dialect)
-def test_where_nobody_reads_every_command_is_heard(
+async def test_where_nobody_reads_every_command_is_heard(
     path: Path, running: Running, end: OpenEnd, bench: Any, dialect: Dialect
 ) -> None:
     """What nobody fetches goes nowhere, in whole replies; and the link goes on."""
     reply = b"".join(bench.gs232(dialect).receive(b"C2\r")).removesuffix(b"\r\n")
 
-    async def look() -> None:
-        async with running(PtyLink(Wire("link", "gs232", "here"), path, lambda: bench.gs232(dialect))):
-            await end(path).write(b"C2\r" * 20_000 + b"W300 080\r")
-            client = end(path)
-            waiting = b""
-            while not waiting.endswith(b"?>\r\n"):
-                waiting += await client.ask(b"!\r")
-            assert bench.drives() == (1, 1)
-            assert set(waiting.split(b"\r\n")) == {reply, b"?>", b""}
-
-    asyncio.run(look())
+    async with running(PtyLink(Wire("link", "gs232", "here"), path, lambda: bench.gs232(dialect))):
+        await end(path).write(b"C2\r" * 20_000 + b"W300 080\r")
+        client = end(path)
+        waiting = b""
+        while not waiting.endswith(b"?>\r\n"):
+            waiting += await client.ask(b"!\r")
+        assert bench.drives() == (1, 1)
+        assert set(waiting.split(b"\r\n")) == {reply, b"?>", b""}
 
 
 # --- what pyserial does to a port
 
 
-def test_modem_lines_speed_and_break_mean_nothing(
+async def test_modem_lines_speed_and_break_mean_nothing(
     link: PtyLink, path: Path, running: Running, end: OpenEnd, bench: Any
 ) -> None:
     def client() -> list[bytes]:
@@ -266,10 +197,7 @@ def test_modem_lines_speed_and_break_mean_nothing(
                 answers.append(port.read(len(POSITION)))
         return answers
 
-    async def look() -> None:
-        async with running(link) as task:
-            assert await asyncio.to_thread(client) == [POSITION] * 3
-            assert not task.done()
-            assert bench.drives() == (0, 0)
-
-    asyncio.run(look())
+    async with running(link) as task:
+        assert await asyncio.to_thread(client) == [POSITION] * 3
+        assert not task.done()
+        assert bench.drives() == (0, 0)

@@ -118,70 +118,58 @@ def link_to(path: Path, sessions: Sessions) -> PtyLink:
 # --- processes
 
 
-def test_answers_that_a_killed_program_has_not_read_do_not_reach_the_next(
+async def test_answers_that_a_killed_program_has_not_read_do_not_reach_the_next(
     path: Path, running: Running, end: Callable[[Path], Any], bench: Any
 ) -> None:
-    async def look() -> None:
-        async with running(PtyLink(Wire("link", "gs232", "here"), path, bench.gs232)):
-            async with program(path, "for _ in range(2000): os.write(port, b'C2\\r')"):
-                pass
-            client = end(path)
-            assert await client.ask(b"!\r") == b"?>\r\n"
-
-    asyncio.run(look())
+    async with running(PtyLink(Wire("link", "gs232", "here"), path, bench.gs232)):
+        async with program(path, "for _ in range(2000): os.write(port, b'C2\\r')"):
+            pass
+        client = end(path)
+        assert await client.ask(b"!\r") == b"?>\r\n"
 
 
-def test_each_program_is_a_connection_of_its_own(path: Path, running: Running) -> None:
-    async def look() -> None:
-        sessions = Sessions()
-        async with running(link_to(path, sessions)):
-            for number in range(3):
-                async with program(path, "os.write(port, b'W300 0')"):
-                    await sessions.until(lambda: b"".join(sessions.heard).endswith(b"W300 0"))
-                    assert sessions.over == [True] * number + [False]
-                await sessions.until(lambda: all(sessions.over))
-            assert sessions.heard == [b"W300 0"] * 3, "half a command does not outlive its program"
-
-    asyncio.run(look())
+async def test_each_program_is_a_connection_of_its_own(path: Path, running: Running) -> None:
+    sessions = Sessions()
+    async with running(link_to(path, sessions)):
+        for number in range(3):
+            async with program(path, "os.write(port, b'W300 0')"):
+                await sessions.until(lambda: b"".join(sessions.heard).endswith(b"W300 0"))
+                assert sessions.over == [True] * number + [False]
+            await sessions.until(lambda: all(sessions.over))
+        assert sessions.heard == [b"W300 0"] * 3, "half a command does not outlive its program"
 
 
-def test_while_a_second_program_has_it_open_nothing_ends(
+async def test_while_a_second_program_has_it_open_nothing_ends(
     path: Path, running: Running, end: Callable[[Path], Any]
 ) -> None:
     """Opened and closed at the same moment by several: the kernel merges equal events."""
 
-    async def look() -> None:
-        sessions = Sessions()
-        async with running(link_to(path, sessions)):
-            stays = end(path)
-            for _ in range(3):
-                others = [os.open(path, os.O_RDWR | os.O_NOCTTY) for _ in range(5)]
-                for other in others:
-                    os.close(other)
-                    await turns()
-            async with program(path, "pass"):
-                pass
-            assert await stays.ask(b"1") == b"\0"
-            assert sessions.over == [False]
-            stays.close()
-            await sessions.until(lambda: sessions.over == [True])
-
-    asyncio.run(look())
+    sessions = Sessions()
+    async with running(link_to(path, sessions)):
+        stays = end(path)
+        for _ in range(3):
+            others = [os.open(path, os.O_RDWR | os.O_NOCTTY) for _ in range(5)]
+            for other in others:
+                os.close(other)
+                await turns()
+        async with program(path, "pass"):
+            pass
+        assert await stays.ask(b"1") == b"\0"
+        assert sessions.over == [False]
+        stays.close()
+        await sessions.until(lambda: sessions.over == [True])
 
 
-def test_last_words_are_heard(path: Path, running: Running, bench: Any, end: Callable[[Path], Any]) -> None:
+async def test_last_words_are_heard(path: Path, running: Running, bench: Any, end: Callable[[Path], Any]) -> None:
     """`echo S > run/gs232`: opened, written and closed before the box looks."""
 
-    async def look() -> None:
-        async with running(PtyLink(Wire("link", "gs232", "here"), path, bench.gs232)):
-            assert await end(path).ask(b"W300 080\rC2\r") == POSITION
-            assert bench.drives() == (1, 1)
-            await asyncio.to_thread(subprocess.run, ["sh", "-c", f"printf 'S\\r' > {path}"], check=True)
-            client = end(path)
-            assert await client.ask(b"C2\r") == POSITION
-            assert bench.drives() == (0, 0)
-
-    asyncio.run(look())
+    async with running(PtyLink(Wire("link", "gs232", "here"), path, bench.gs232)):
+        assert await end(path).ask(b"W300 080\rC2\r") == POSITION
+        assert bench.drives() == (1, 1)
+        await asyncio.to_thread(subprocess.run, ["sh", "-c", f"printf 'S\\r' > {path}"], check=True)
+        client = end(path)
+        assert await client.ask(b"C2\r") == POSITION
+        assert bench.drives() == (0, 0)
 
 
 def test_one_left_in_exclusive_use_can_be_opened_again() -> None:
@@ -221,24 +209,23 @@ def test_one_left_in_exclusive_use_can_be_opened_again() -> None:
     assert os.waitstatus_to_exitcode(status) == 0
 
 
-def test_what_a_program_sets_on_the_line_ends_with_it(path: Path, running: Running, end: Callable[[Path], Any]) -> None:
+async def test_what_a_program_sets_on_the_line_ends_with_it(
+    path: Path, running: Running, end: Callable[[Path], Any]
+) -> None:
     """A terminal with echo would send each answer back to the box."""
     echo = "import termios; a = termios.tcgetattr(port); a[3] |= termios.ECHO; termios.tcsetattr(port, 0, a)"
 
-    async def look() -> None:
-        sessions = Sessions()
-        async with running(link_to(path, sessions)):
-            async with program(path, echo + "; os.write(port, b'x')"):
-                await sessions.until(lambda: len(sessions.heard) > 0)
-            await sessions.until(lambda: all(sessions.over))
-            await asyncio.sleep(0)
-            client = end(path)
-            assert not termios.tcgetattr(client.fd)[3] & termios.ECHO
-
-    asyncio.run(look())
+    sessions = Sessions()
+    async with running(link_to(path, sessions)):
+        async with program(path, echo + "; os.write(port, b'x')"):
+            await sessions.until(lambda: len(sessions.heard) > 0)
+        await sessions.until(lambda: all(sessions.over))
+        await asyncio.sleep(0)
+        client = end(path)
+        assert not termios.tcgetattr(client.fd)[3] & termios.ECHO
 
 
-def test_a_kernel_without_watches_is_no_end(
+async def test_a_kernel_without_watches_is_no_end(
     path: Path, running: Running, end: Callable[[Path], Any], log: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """fs.inotify.max_user_instances is 128: other programs may have them all."""
@@ -249,17 +236,14 @@ def test_a_kernel_without_watches_is_no_end(
 
     monkeypatch.setattr("rotator.links.terminal.Openings", Exhausted)
 
-    async def look() -> None:
-        sessions = Sessions()
-        async with running(link_to(path, sessions)):
-            for number in range(2):
-                client = end(path)
-                assert await client.ask(b"x") == bytes([number])
-                client.close()
-                await sessions.until(lambda: all(sessions.over))
-        assert log.count("Too many open files") == 1
-
-    asyncio.run(look())
+    sessions = Sessions()
+    async with running(link_to(path, sessions)):
+        for number in range(2):
+            client = end(path)
+            assert await client.ask(b"x") == bytes([number])
+            client.close()
+            await sessions.until(lambda: all(sessions.over))
+    assert log.count("Too many open files") == 1
 
 
 # --- any order of events

@@ -84,100 +84,74 @@ def link(wire: Wire, adapter: Adapter, bench: Any) -> SerialLink:
 # --- a port
 
 
-def test_it_talks_9600_8n1_without_echo(link: SerialLink, adapter: Adapter, running: Running, log: Any) -> None:
-    async def talk() -> None:
-        adapter.plug_in()
-        async with running(link):
-            await log.wait("open at")
-            assert link.wire.state == "open"
-            assert adapter.line_speed() == (termios.B9600, termios.CS8)
-            for _ in range(100):
-                assert await adapter.pc.ask(b"C2\r") == POSITION
-        assert log.said == [f"link: {adapter.path} open at 9600 baud"]
-
-    asyncio.run(talk())
+async def test_it_talks_9600_8n1_without_echo(link: SerialLink, adapter: Adapter, running: Running, log: Any) -> None:
+    adapter.plug_in()
+    async with running(link):
+        await log.wait("open at")
+        assert link.wire.state == "open"
+        assert adapter.line_speed() == (termios.B9600, termios.CS8)
+        for _ in range(100):
+            assert await adapter.pc.ask(b"C2\r") == POSITION
+    assert log.said == [f"link: {adapter.path} open at 9600 baud"]
 
 
-def test_garbage_is_answered_and_moves_nothing(
+async def test_garbage_is_answered_and_moves_nothing(
     link: SerialLink, adapter: Adapter, running: Running, log: Any, bench: Any
 ) -> None:
     """Bytes as they look at the wrong baud rate."""
 
-    async def talk() -> None:
-        adapter.plug_in()
-        async with running(link):
-            await log.wait("open at")
-            await adapter.pc.write(bytes(range(256)) * 4 + b"\r")
-            answers = b""
-            while not answers.endswith(POSITION):
-                answers += await adapter.pc.ask(b"C2\r")
-            assert set(answers.replace(POSITION, b"").split(b"\r\n")) == {b"?>", b""}
-            assert bench.drives() == (0, 0)
-
-    asyncio.run(talk())
+    adapter.plug_in()
+    async with running(link):
+        await log.wait("open at")
+        await adapter.pc.write(bytes(range(256)) * 4 + b"\r")
+        answers = b""
+        while not answers.endswith(POSITION):
+            answers += await adapter.pc.ask(b"C2\r")
+        assert set(answers.replace(POSITION, b"").split(b"\r\n")) == {b"?>", b""}
+        assert bench.drives() == (0, 0)
 
 
-def test_a_missing_port_is_waited_for_and_said_once(
+async def test_a_missing_port_is_waited_for_and_said_once(
     wire: Wire, bench: Any, adapter: Adapter, running: Running, log: Any
 ) -> None:
-    async def talk() -> None:
-        tries = Counted(10)
-        link = SerialLink(wire, str(adapter.path), 9600, bench.gs232, retry_s=RETRY_S, opens=tries)
-        async with running(link):
-            assert await asyncio.to_thread(tries.reached.wait, PATIENCE_S)
-            assert len(log.said) == 1
-            assert log.said[0].startswith(f"link: {adapter.path} cannot be opened: ")
-            assert log.said[0].endswith(
-                "No such file or directory: is it plugged in? `ls /dev/serial/by-id` shows what is; waiting for it"
-            )
-            assert link.wire.state == "waiting for it"
-            adapter.plug_in()
-            await log.wait("open at")
-            assert await adapter.pc.ask(b"C2\r") == POSITION
-
-    asyncio.run(talk())
-
-
-def test_unplugged_and_plugged_in_again(link: SerialLink, adapter: Adapter, running: Running, log: Any) -> None:
-    async def talk() -> None:
+    tries = Counted(10)
+    link = SerialLink(wire, str(adapter.path), 9600, bench.gs232, retry_s=RETRY_S, opens=tries)
+    async with running(link):
+        assert await asyncio.to_thread(tries.reached.wait, PATIENCE_S)
+        assert len(log.said) == 1
+        assert log.said[0].startswith(f"link: {adapter.path} cannot be opened: ")
+        assert log.said[0].endswith(
+            "No such file or directory: is it plugged in? `ls /dev/serial/by-id` shows what is; waiting for it"
+        )
+        assert link.wire.state == "waiting for it"
         adapter.plug_in()
-        async with running(link) as task:
-            for count in range(1, 4):
-                await log.wait("open at", times=count)
-                assert await adapter.pc.ask(b"C2\r") == POSITION
-                adapter.unplug()
-                await log.wait(" lost: ", times=count)
-                adapter.plug_in()
-            await log.wait("open at", times=4)
+        await log.wait("open at")
+        assert await adapter.pc.ask(b"C2\r") == POSITION
+
+
+async def test_unplugged_and_plugged_in_again(link: SerialLink, adapter: Adapter, running: Running, log: Any) -> None:
+    adapter.plug_in()
+    async with running(link) as task:
+        for count in range(1, 4):
+            await log.wait("open at", times=count)
             assert await adapter.pc.ask(b"C2\r") == POSITION
-            assert not task.done()
+            adapter.unplug()
+            await log.wait(" lost: ", times=count)
+            adapter.plug_in()
+        await log.wait("open at", times=4)
+        assert await adapter.pc.ask(b"C2\r") == POSITION
+        assert not task.done()
 
-    asyncio.run(talk())
 
-
-def test_half_a_command_does_not_outlive_the_plug(
+async def test_half_a_command_does_not_outlive_the_plug(
     link: SerialLink, adapter: Adapter, running: Running, log: Any
 ) -> None:
-    async def talk() -> None:
+    adapter.plug_in()
+    async with running(link):
+        await log.wait("open at")
+        assert await adapter.pc.ask(b"C2\rW300 0") == POSITION
+        adapter.unplug()
+        await log.wait(" lost: ")
         adapter.plug_in()
-        async with running(link):
-            await log.wait("open at")
-            assert await adapter.pc.ask(b"C2\rW300 0") == POSITION
-            adapter.unplug()
-            await log.wait(" lost: ")
-            adapter.plug_in()
-            await log.wait("open at", times=2)
-            assert await adapter.pc.ask(b"80\r") == b"?>\r\n"
-
-    asyncio.run(talk())
-
-
-def test_what_is_no_port_at_all_is_waited_for_too(
-    wire: Wire, running: Running, log: Any, bench: Any, tmp_path: Path
-) -> None:
-    async def talk() -> None:
-        async with running(SerialLink(wire, f"nonsense://{tmp_path}", 9600, bench.gs232, retry_s=RETRY_S)):
-            await log.wait("cannot be opened")
-            assert wire.state == "waiting for it"
-
-    asyncio.run(talk())
+        await log.wait("open at", times=2)
+        assert await adapter.pc.ask(b"80\r") == b"?>\r\n"

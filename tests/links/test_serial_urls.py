@@ -24,24 +24,21 @@ POSITION = b"AZ=235  EL=025\r\n"
 Running = Callable[[SerialLink], Any]
 
 
-def test_a_socket_is_a_port_and_comes_back_like_one(wire: Wire, bench: Any, running: Running, log: Any) -> None:
+async def test_a_socket_is_a_port_and_comes_back_like_one(wire: Wire, bench: Any, running: Running, log: Any) -> None:
     """ser2net in raw mode: a descriptor, but no terminal."""
 
-    async def talk() -> None:
-        events = asyncio.get_running_loop()
-        with socket.create_server(("127.0.0.1", 0)) as server:
-            server.setblocking(False)
-            url = f"socket://127.0.0.1:{server.getsockname()[1]}"
-            async with running(SerialLink(wire, url, 9600, bench.gs232, retry_s=RETRY_S)):
-                for count in (1, 2):
-                    far_end, _ = await asyncio.wait_for(events.sock_accept(server), PATIENCE_S)
-                    with far_end:
-                        await log.wait("open at", times=count)
-                        await events.sock_sendall(far_end, b"C2\r")
-                        assert await asyncio.wait_for(events.sock_recv(far_end, 99), PATIENCE_S) == POSITION
-                    await log.wait(" lost: hung up", times=count)
-
-    asyncio.run(talk())
+    events = asyncio.get_running_loop()
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.setblocking(False)
+        url = f"socket://127.0.0.1:{server.getsockname()[1]}"
+        async with running(SerialLink(wire, url, 9600, bench.gs232, retry_s=RETRY_S)):
+            for count in (1, 2):
+                far_end, _ = await asyncio.wait_for(events.sock_accept(server), PATIENCE_S)
+                with far_end:
+                    await log.wait("open at", times=count)
+                    await events.sock_sendall(far_end, b"C2\r")
+                    assert await asyncio.wait_for(events.sock_recv(far_end, 99), PATIENCE_S) == POSITION
+                await log.wait(" lost: hung up", times=count)
 
 
 class Lender:
@@ -88,28 +85,24 @@ class Lender:
     "ignore:setName:DeprecationWarning",
     "ignore::pytest.PytestUnraisableExceptionWarning",
 )
-def test_a_port_without_a_descriptor(wire: Wire, bench: Any, running: Running, log: Any) -> None:
-    async def talk() -> None:
-        with closing(Lender()) as lender:
-            async with running(SerialLink(wire, lender.url, 9600, bench.gs232, retry_s=RETRY_S)):
-                await log.wait("open at")
-                for _ in range(20):
-                    assert await asyncio.to_thread(lender.ask, b"C2\r", len(POSITION)) == POSITION
-                assert await asyncio.to_thread(lender.ask, b"\xffQ\r", 4) == b"?>\r\n"
-                lender.hang_up()
-                await log.wait(" lost: ")
-
-    asyncio.run(talk())
+async def test_a_port_without_a_descriptor(wire: Wire, bench: Any, running: Running, log: Any) -> None:
+    with closing(Lender()) as lender:
+        async with running(SerialLink(wire, lender.url, 9600, bench.gs232, retry_s=RETRY_S)):
+            await log.wait("open at")
+            for _ in range(20):
+                assert await asyncio.to_thread(lender.ask, b"C2\r", len(POSITION)) == POSITION
+            assert await asyncio.to_thread(lender.ask, b"\xffQ\r", 4) == b"?>\r\n"
+            lender.hang_up()
+            await log.wait(" lost: ")
 
 
-def test_a_port_without_a_descriptor_is_let_go_of_quietly(wire: Wire, bench: Any, running: Running, log: Any) -> None:
+async def test_a_port_without_a_descriptor_is_let_go_of_quietly(
+    wire: Wire, bench: Any, running: Running, log: Any
+) -> None:
     """Its thread ends after the event loop that it reported to."""
 
-    async def talk() -> None:
-        async with running(SerialLink(wire, "loop://", 9600, bench.gs232, retry_s=RETRY_S)):
-            await log.wait("open at")
-
-    asyncio.run(talk())
+    async with running(SerialLink(wire, "loop://", 9600, bench.gs232, retry_s=RETRY_S)):
+        await log.wait("open at")
     for thread in threading.enumerate():
         if thread.name == wire.name:
             thread.join(PATIENCE_S)
@@ -118,17 +111,14 @@ def test_a_port_without_a_descriptor_is_let_go_of_quietly(wire: Wire, bench: Any
 @pytest.mark.parametrize(
     "url", ["hwgrep://(", "loop://?logging=nonsense", "alt://x?class=Nonsense", "rfc2217://", "no://"]
 )
-def test_a_url_that_pyserial_cannot_use_is_waited_for_like_a_port(
+async def test_a_url_that_pyserial_cannot_use_is_waited_for_like_a_port(
     wire: Wire, new_ear: type[Any], running: Running, log: Any, url: str
 ) -> None:
     """A handler of pyserial may raise any exception. None of them may end the box."""
 
-    async def talk() -> None:
-        async with running(SerialLink(wire, url, 9600, new_ear, retry_s=RETRY_S)):
-            await log.wait(f"link: {url} cannot be opened: ")
-            assert wire.state == "waiting for it"
-
-    asyncio.run(talk())
+    async with running(SerialLink(wire, url, 9600, new_ear, retry_s=RETRY_S)):
+        await log.wait(f"link: {url} cannot be opened: ")
+        assert wire.state == "waiting for it"
     assert log.count("waiting for it") == 1
 
 

@@ -67,76 +67,34 @@ def rotctld(wire: Wire, port: int, bench: Any) -> TcpLink:
 # --- conversations
 
 
-def test_each_client_has_a_conversation_of_its_own(gs232: TcpLink, port: int, running: Running) -> None:
-    async def talk() -> None:
-        async with running(gs232), connected(port) as one, connected(port) as other:
-            await one.send(b"C")
-            assert await other.ask(b"C2\r") == POSITION
-            assert await one.ask(b"2\r") == POSITION
-            assert await other.ask(b"B\r") == b"EL=025\r\n"
-
-    asyncio.run(talk())
+async def test_each_client_has_a_conversation_of_its_own(gs232: TcpLink, port: int, running: Running) -> None:
+    async with running(gs232), connected(port) as one, connected(port) as other:
+        await one.send(b"C")
+        assert await other.ask(b"C2\r") == POSITION
+        assert await one.ask(b"2\r") == POSITION
+        assert await other.ask(b"B\r") == b"EL=025\r\n"
 
 
-def test_the_wire_counts_its_clients(rotctld: TcpLink, port: int, running: Running) -> None:
-    async def talk() -> None:
-        async with running(rotctld):
-            assert rotctld.wire.state == "listening"
-            async with connected(port) as one:
-                await one.ask(b"p\n")
-                assert rotctld.wire.state == "1 client"
-                async with connected(port) as other:
-                    await other.ask(b"p\n")
-                    assert rotctld.wire.state == "2 clients"
-        assert rotctld.wire.state == "closed"
-
-    asyncio.run(talk())
+async def test_the_wire_counts_its_clients(rotctld: TcpLink, port: int, running: Running) -> None:
+    async with running(rotctld):
+        assert rotctld.wire.state == "listening"
+        async with connected(port) as one:
+            await one.ask(b"p\n")
+            assert rotctld.wire.state == "1 client"
+            async with connected(port) as other:
+                await other.ask(b"p\n")
+                assert rotctld.wire.state == "2 clients"
+    assert rotctld.wire.state == "closed"
 
 
-def test_a_command_in_pieces(rotctld: TcpLink, port: int, running: Running, bench: Any) -> None:
-    async def talk() -> None:
-        async with running(rotctld), connected(port) as client:
-            for piece in (b"P 3", b"00", b" 80."):
-                await client.send(piece)
-            assert await client.ask(b"0\n") == b"RPRT 0\n"
-            assert bench.drives() == (1, 1)
-
-    asyncio.run(talk())
-
-
-def test_several_commands_at_once(rotctld: TcpLink, port: int, running: Running) -> None:
-    async def talk() -> None:
-        async with running(rotctld), connected(port) as client:
-            assert (await client.ask(b"S\nP 236 26\n_\n")) == b"RPRT 0\n"
-            assert await client.answer() == b"RPRT 0\n"
-            assert (await client.answer()).startswith(b"gs232-rotator ")
-
-    asyncio.run(talk())
-
-
-def test_a_client_that_ends_no_line_is_heard_when_it_falls_silent(
+async def test_a_client_that_ends_no_line_is_heard_when_it_falls_silent(
     rotctld: TcpLink, port: int, running: Running, bench: Any
 ) -> None:
     """Gpredict on Windows, up to 2018."""
 
-    async def talk() -> None:
-        async with running(rotctld), connected(port) as client:
-            assert await client.ask(b"P 300 80") == b"RPRT 0\n"
-            assert bench.drives() == (1, 1)
-
-    asyncio.run(talk())
-
-
-def test_half_a_command_and_silence_is_no_order(rotctld: TcpLink, port: int, running: Running, bench: Any) -> None:
-    async def talk() -> None:
-        async with running(rotctld), connected(port) as half, connected(port) as whole:
-            await half.send(b"P 300")
-            # Sent later, its silence ends later.
-            assert await whole.ask(b"S") == b"RPRT 0\n"
-            assert bench.drives() == (0, 0)
-            assert await half.ask(b" 80\n") == b"RPRT 0\n"
-
-    asyncio.run(talk())
+    async with running(rotctld), connected(port) as client:
+        assert await client.ask(b"P 300 80") == b"RPRT 0\n"
+        assert bench.drives() == (1, 1)
 
 
 class Metered:
@@ -163,7 +121,9 @@ class Metered:
         return self._session.idle()
 
 
-def test_nobodys_flood_and_nobodys_pause_holds_up_a_stop(wire: Wire, port: int, running: Running, bench: Any) -> None:
+async def test_nobodys_flood_and_nobodys_pause_holds_up_a_stop(
+    wire: Wire, port: int, running: Running, bench: Any
+) -> None:
     """Ten clients send half a million questions, one wants to pause; then a hand presses stop. A few turns of each
     client later it has its answer."""
     sessions: list[Metered] = []
@@ -172,20 +132,17 @@ def test_nobodys_flood_and_nobodys_pause_holds_up_a_stop(wire: Wire, port: int, 
         sessions.append(Metered(bench.rotctld()))
         return sessions[-1]
 
-    async def talk() -> None:
-        async with running(TcpLink(wire, "127.0.0.1", port, session)), AsyncExitStack() as crowd:
-            hand = await crowd.enter_async_context(connected(port))
-            floods = [(b"p" * 100 + b"\n") * 500] * 10 + [b"\\pause 600\n"]
-            clients = [await crowd.enter_async_context(connected(port)) for _ in floods]
-            assert await hand.ask(b"P 300 80\n") == b"RPRT 0\n"
-            assert bench.drives() == (1, 1)
-            for client, flood in zip(clients, floods, strict=True):
-                client.writer.write(flood)
-            assert await hand.ask(b"S\n") == b"RPRT 0\n"
-            assert all(each.taken <= 10 * READ_BYTES for each in sessions)
-            assert bench.drives() == (0, 0)
-
-    asyncio.run(talk())
+    async with running(TcpLink(wire, "127.0.0.1", port, session)), AsyncExitStack() as crowd:
+        hand = await crowd.enter_async_context(connected(port))
+        floods = [(b"p" * 100 + b"\n") * 500] * 10 + [b"\\pause 600\n"]
+        clients = [await crowd.enter_async_context(connected(port)) for _ in floods]
+        assert await hand.ask(b"P 300 80\n") == b"RPRT 0\n"
+        assert bench.drives() == (1, 1)
+        for client, flood in zip(clients, floods, strict=True):
+            client.writer.write(flood)
+        assert await hand.ask(b"S\n") == b"RPRT 0\n"
+        assert all(each.taken <= 10 * READ_BYTES for each in sessions)
+        assert bench.drives() == (0, 0)
 
 
 # --- browsers
@@ -193,93 +150,75 @@ def test_nobodys_flood_and_nobodys_pause_holds_up_a_stop(wire: Wire, port: int, 
 POST = b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: https://site.example\r\nContent-Length: 10\r\n\r\n"
 
 
-def test_what_a_web_site_lets_a_browser_send_is_no_order(
+async def test_what_a_web_site_lets_a_browser_send_is_no_order(
     rotctld: TcpLink, port: int, running: Running, bench: Any, log: Any
 ) -> None:
     order = b"P 300 80\n"
     sent = [(POST + order,), (b"PO", POST[2:], order), (b"\x16\x03\x01\n" + order,)]
 
-    async def talk() -> None:
-        async with running(rotctld), connected(port) as program:
-            for pieces in sent:
-                async with connected(port) as browser:
-                    for piece in pieces:
-                        await browser.send(piece)
-                    assert await browser.is_turned_away()
-            await log.wait("link: a browser speaks HTTP here, a web site in it perhaps: turned away")
-            assert bench.drives() == (0, 0)
-            assert await program.ask(order) == b"RPRT 0\n"
-            assert bench.drives() == (1, 1)
-
-    asyncio.run(talk())
+    async with running(rotctld), connected(port) as program:
+        for pieces in sent:
+            async with connected(port) as browser:
+                for piece in pieces:
+                    await browser.send(piece)
+                assert await browser.is_turned_away()
+        await log.wait("link: a browser speaks HTTP here, a web site in it perhaps: turned away")
+        assert bench.drives() == (0, 0)
+        assert await program.ask(order) == b"RPRT 0\n"
+        assert bench.drives() == (1, 1)
 
 
-def test_a_protocol_on_http_is_for_browsers_too(wire: Wire, port: int, running: Running, bench: Any) -> None:
-    async def talk() -> None:
-        link = TcpLink(wire, "127.0.0.1", port, bench.rotctld, speaks_http=True)
-        async with running(link), connected(port) as browser:
-            assert await browser.ask(POST) == b"RPRT -4\n"
-
-    asyncio.run(talk())
+async def test_a_protocol_on_http_is_for_browsers_too(wire: Wire, port: int, running: Running, bench: Any) -> None:
+    link = TcpLink(wire, "127.0.0.1", port, bench.rotctld, speaks_http=True)
+    async with running(link), connected(port) as browser:
+        assert await browser.ask(POST) == b"RPRT -4\n"
 
 
 # --- coming and going
 
 
-def test_q_ends_that_connection_and_no_other(rotctld: TcpLink, port: int, running: Running) -> None:
-    async def talk() -> None:
-        async with running(rotctld), connected(port) as one, connected(port) as other:
-            assert await one.ask(b"S\nq\n") == b"RPRT 0\n"
-            assert await one.answer() == b""
-            assert await other.ask(b"S\n") == b"RPRT 0\n"
-
-    asyncio.run(talk())
+async def test_q_ends_that_connection_and_no_other(rotctld: TcpLink, port: int, running: Running) -> None:
+    async with running(rotctld), connected(port) as one, connected(port) as other:
+        assert await one.ask(b"S\nq\n") == b"RPRT 0\n"
+        assert await one.answer() == b""
+        assert await other.ask(b"S\n") == b"RPRT 0\n"
 
 
-def test_a_client_that_vanishes_disturbs_nobody(gs232: TcpLink, port: int, running: Running) -> None:
-    async def talk() -> None:
-        async with running(gs232), connected(port) as other:
-            async with connected(port) as one:
-                await one.send(b"C2\r" * 100)
-                one.writer.transport.abort()
-            assert await other.ask(b"C2\r") == POSITION
-
-    asyncio.run(talk())
+async def test_a_client_that_vanishes_disturbs_nobody(gs232: TcpLink, port: int, running: Running) -> None:
+    async with running(gs232), connected(port) as other:
+        async with connected(port) as one:
+            await one.send(b"C2\r" * 100)
+            one.writer.transport.abort()
+        assert await other.ask(b"C2\r") == POSITION
 
 
-def test_one_client_too_many_is_turned_away(gs232: TcpLink, port: int, running: Running, log: Any) -> None:
-    async def talk() -> None:
-        async with running(gs232), AsyncExitStack() as crowd:
-            clients = [await crowd.enter_async_context(connected(port)) for _ in range(MOST_CLIENTS)]
-            for client in clients:
-                assert await client.ask(b"C2\r") == POSITION
-            async with connected(port) as late:
-                assert await late.is_turned_away()
-            await log.wait(f"link: {MOST_CLIENTS} clients already, one more is turned away")
-            for client in clients:
-                assert await client.ask(b"C2\r") == POSITION
-            await crowd.aclose()
-            async with connected(port) as later:
-                assert await later.ask(b"C2\r") == POSITION
-
-    asyncio.run(talk())
+async def test_one_client_too_many_is_turned_away(gs232: TcpLink, port: int, running: Running, log: Any) -> None:
+    async with running(gs232), AsyncExitStack() as crowd:
+        clients = [await crowd.enter_async_context(connected(port)) for _ in range(MOST_CLIENTS)]
+        for client in clients:
+            assert await client.ask(b"C2\r") == POSITION
+        async with connected(port) as late:
+            assert await late.is_turned_away()
+        await log.wait(f"link: {MOST_CLIENTS} clients already, one more is turned away")
+        for client in clients:
+            assert await client.ask(b"C2\r") == POSITION
+        await crowd.aclose()
+        async with connected(port) as later:
+            assert await later.ask(b"C2\r") == POSITION
 
 
-def test_a_client_that_never_reads_is_dropped_and_the_others_live(
+async def test_a_client_that_never_reads_is_dropped_and_the_others_live(
     gs232: TcpLink, port: int, running: Running, log: Any
 ) -> None:
-    async def talk() -> None:
-        async with running(gs232), connected(port) as other:
-            with closing(socket.socket()) as deaf:
-                deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-                deaf.setblocking(False)
-                await asyncio.get_running_loop().sock_connect(deaf, ("127.0.0.1", port))
-                with pytest.raises(ConnectionError):
-                    await asyncio.wait_for(_ask_for_ever(deaf), PATIENCE_S)
-                assert await other.ask(b"C2\r") == POSITION
-        assert log.count("link: a client reads nothing: dropped") == 1
-
-    asyncio.run(talk())
+    async with running(gs232), connected(port) as other:
+        with closing(socket.socket()) as deaf:
+            deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            deaf.setblocking(False)
+            await asyncio.get_running_loop().sock_connect(deaf, ("127.0.0.1", port))
+            with pytest.raises(ConnectionError):
+                await asyncio.wait_for(_ask_for_ever(deaf), PATIENCE_S)
+            assert await other.ask(b"C2\r") == POSITION
+    assert log.count("link: a client reads nothing: dropped") == 1
 
 
 async def _ask_for_ever(client: socket.socket) -> None:
@@ -287,35 +226,24 @@ async def _ask_for_ever(client: socket.socket) -> None:
         await asyncio.get_running_loop().sock_sendall(client, b"H\r" * 1000)
 
 
-def test_stopped_it_lets_its_clients_go_and_its_port_too(gs232: TcpLink, port: int, running: Running) -> None:
-    async def talk() -> None:
-        async with AsyncExitStack() as clients:
-            for _ in range(2):
-                async with running(gs232):
-                    client = await clients.enter_async_context(connected(port))
-                    assert await client.ask(b"C2\r") == POSITION
-                assert await client.is_turned_away()
-
-    asyncio.run(talk())
+async def test_stopped_it_lets_its_clients_go_and_its_port_too(gs232: TcpLink, port: int, running: Running) -> None:
+    async with AsyncExitStack() as clients:
+        for _ in range(2):
+            async with running(gs232):
+                client = await clients.enter_async_context(connected(port))
+                assert await client.ask(b"C2\r") == POSITION
+            assert await client.is_turned_away()
 
 
 # --- places that cannot be listened at
 
 
-def test_a_port_in_use(gs232: TcpLink, port: int, running: Running, new_ear: type[Any]) -> None:
-    async def talk() -> None:
-        async with running(gs232), connected(port) as client:
-            with pytest.raises(LinkError) as refused:
-                await TcpLink(Wire("second", "test", "here"), "127.0.0.1", port, new_ear).open()
-            assert str(refused.value).startswith(f"127.0.0.1:{port}: cannot listen there: Address already in use: end")
-            assert await client.ask(b"C2\r") == POSITION
-
-    asyncio.run(talk())
-
-
-def test_another_machine_s_address(wire: Wire, new_ear: type[Any]) -> None:
-    with pytest.raises(LinkError, match=r"^192\.0\.2\.1:4533: cannot listen there: Cannot assign"):
-        asyncio.run(TcpLink(wire, "192.0.2.1", 4533, new_ear).open())
+async def test_a_port_in_use(gs232: TcpLink, port: int, running: Running, new_ear: type[Any]) -> None:
+    async with running(gs232), connected(port) as client:
+        with pytest.raises(LinkError) as refused:
+            await TcpLink(Wire("second", "test", "here"), "127.0.0.1", port, new_ear).open()
+        assert str(refused.value).startswith(f"127.0.0.1:{port}: cannot listen there: Address already in use: end")
+        assert await client.ask(b"C2\r") == POSITION
 
 
 def test_a_name_that_no_machine_has(wire: Wire, new_ear: type[Any]) -> None:

@@ -129,16 +129,6 @@ def test_where_an_angle_is_not_known_at_its_first_look_it_looks_again_soon() -> 
     assert late.loop.status.flown is not None
 
 
-def test_off_ends_it_and_plan_begins_it_again(rise: Box) -> None:
-    rise.wait(100.0)
-    rise.tracker.off()
-    rise.wait(30.0)
-    assert rise.loop.status.flown is None
-    assert rise.tracker.follow_plan() == ""
-    rise.wait(5.0)
-    assert rise.loop.status.flown is not None
-
-
 @pytest.mark.parametrize("wait_s", [5.0, 100.0])
 def test_a_direction_that_a_person_asks_for_is_kept_before_and_during_a_flight(rise: Box, wait_s: float) -> None:
     rise.wait(wait_s)
@@ -162,13 +152,6 @@ def test_a_plan_that_could_not_be_made_is_tried_again_within_the_pass(rise: Box)
     rise.wait(100.0)
     assert not failures
     assert rise.loop.status.flown is not None
-
-
-def test_a_target_that_a_person_names_comes_before_the_plan(rise: Box) -> None:
-    assert rise.tracker.track("moon") == ""
-    rise.wait(105.0)
-    assert rise.loop.status.flown is not None
-    assert rise.loop.status.flown.name == "Moon"
 
 
 def asks(rise: Box, source: Source | None = None) -> str:
@@ -291,27 +274,6 @@ def test_where_the_clock_is_set_during_a_flight_the_plan_of_the_new_time_is_flow
         rises = pass_of("iss", 0.0, box.utc_s - 600.0).aos_s
         assert rises is not None
         assert flown.begin_s - box.clock() == pytest.approx(rises - box.utc_s, abs=2.0)
-
-
-def test_a_stop_that_comes_right_before_the_flight_is_ordered_comes_after_it(rise: Box) -> None:
-    """What is slow at that moment is the log: while it writes, a program stops the antenna."""
-
-    class Stops(logging.Handler):
-        def emit(self, record: logging.LogRecord) -> None:
-            if "next pass" in record.getMessage():
-                rise.loop.post(PC, Stop())
-
-    follower, handler = logging.getLogger("rotator.tracking.follower"), Stops()
-    level = follower.level
-    follower.setLevel(logging.INFO)
-    follower.addHandler(handler)
-    try:
-        rise.wait(105.0)
-    finally:
-        follower.removeHandler(handler)
-        follower.setLevel(level)
-    assert rise.loop.status.flown is None
-    assert rise.loop.status.controlled_by == ""
 
 
 def test_a_new_order_of_the_targets_is_planned_at_once(rise: Box) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.timed_table import TimedTable
-from rotator.exchange.orders import Aim, Stop
+from rotator.exchange.orders import Aim
 from rotator.exchange.sources import Source
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
@@ -84,15 +84,6 @@ def test_when_the_clock_is_set_seconds_from_now_stay_the_same(box: Box) -> None:
     assert off_deg(box, 1) < 5.0
 
 
-@pytest.mark.parametrize("order", [Aim(10.0, 10.0), Stop()])
-def test_another_sender_ends_it(box: Box, order: Aim | Stop) -> None:
-    box.tracker.program(table())
-    box.wait(80.0)
-    box.loop.post(Source("rotctld", 1), order)
-    box.wait(5.0)
-    assert box.tracker.state.startswith("ended: rotctld")
-
-
 # --- a request that cannot be tracked, while something is
 
 
@@ -133,28 +124,6 @@ def test_a_refused_request_keeps_what_was_tracked(first: str, how: str) -> None:
     box.loop.post(Source("rotctld", 1), Aim(10.0, 10.0))
     box.wait(5.0)
     assert box.tracker.state.startswith("ended: rotctld"), "it is watched as before"
-
-
-@pytest.mark.parametrize("how", [PAST, WALLED])
-def test_a_refused_request_with_nothing_before_it_has_ended(how: str) -> None:
-    box = Box(FEBRUARY_S, follow=WALL)
-    reason = refused(box, how)
-    assert box.tracker.state.startswith(f"ended: {reason}")
-    assert box.loop.status.flown is None
-
-
-def test_a_request_after_a_refused_one_counts(box: Box) -> None:
-    box.tracker.program(table())
-    box.wait(2.0)
-    refused(box, PAST)
-    box.tracker.track("iss")
-    box.wait(2.0)
-    assert box.tracker.state == "tracking"
-    assert box.loop.status.flown is not None
-    assert box.loop.status.flown.name.startswith("ISS")
-    box.tracker.off()
-    box.wait(3.0)
-    assert (box.tracker.state, box.loop.status.flown) == ("off", None)
 
 
 def test_the_status_says_that_a_table_is_flown(box: Box) -> None:

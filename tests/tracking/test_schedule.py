@@ -195,16 +195,6 @@ def test_a_short_overlap_costs_the_end_of_one_or_the_beginning_of_the_other() ->
     assert first.end_s - first.begin_s + second.end_s - second.begin_s > 1200 - 120 - 15 - 20
 
 
-@pytest.mark.parametrize("name", ["360", "with a chimney"])
-def test_in_a_crowd_each_flight_that_leaves_something_out_has_a_reason(name: str) -> None:
-    mount = MOUNTS[name]
-    followed = [Followed(each, 1.0 + number % 3) for number, each in enumerate(satellites(12))]
-    for each, flight in flights(schedule(followed, antenna(mount), EPOCH_S, EPOCH_S + DAY_S / 2)):
-        assert each.found.los_s is not None
-        missed = [at_s for at_s in seconds_between(flight.end_s, each.found.los_s, 5.0) if flight.end_s < at_s]
-        assert each.reason or sum(in_sight(mount, each.name, at_s) for at_s in missed) < 3
-
-
 @pytest.mark.parametrize(
     ("followed", "reason"),
     [
@@ -269,13 +259,6 @@ def test_no_flight_leads_past_a_mast_that_no_elevation_clears() -> None:
     assert last.name == "past"
     assert past.sight(second.end_s).azimuth_deg < 170
     assert {each.name for each in plan if not each.flight} == {"west"}
-
-
-@pytest.mark.parametrize("mount", MOUNTS.values(), ids=MOUNTS)
-def test_with_any_satellites_flights_follow_one_another(mount: Mount) -> None:
-    plan = schedule(follow(*satellites(12)), antenna(mount), EPOCH_S, EPOCH_S + 6 * HOUR_S)
-    for (_, before), (_, after) in pairwise(flights(plan)):
-        assert before.end_s + 15.0 <= after.begin_s
 
 
 def test_nothing_followed_nothing_planned() -> None:

@@ -10,7 +10,7 @@ import math
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import BOTH, Aim, GiveBack, Jog, LetGo, Mode, Order, Park, Release, SetMode, Stop, Take
+from rotator.exchange.orders import BOTH, Aim, GiveBack, Jog, Mode, Order, Release, SetMode, Stop
 from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
@@ -150,26 +150,6 @@ def test_a_stop_at_the_very_end_of_a_pass_is_no_end_of_a_pass(rise: Box) -> None
     assert late.tracker.state == "ended: gs232b#1 stopped it"
 
 
-@pytest.mark.parametrize(
-    ("source", "orders", "said"),
-    [
-        (PERSON, [Stop(latch=True)], "stopped it"),
-        (PERSON, [Stop(latch=True), Release()], "stopped it"),
-        (Source("panel"), [SetMode(Mode.JOG)], "has set the mode JOG"),
-        (Source("page", 1), [Take()], "took the antenna"),
-        (PERSON, [Park(storm=True)], "parked it"),
-        (PERSON, [LetGo()], "took the torque from the motors"),
-    ],
-)
-def test_the_end_names_the_sender_and_its_order(rise: Box, source: Source, orders: list[Order], said: str) -> None:
-    assert rise.tracker.track("iss") == ""
-    rise.wait(5.0)
-    for order in orders:
-        rise.loop.post(source, order)
-    rise.wait(1.0)
-    assert rise.tracker.state == f"ended: {source} {said}"
-
-
 def broken(box: Box, fault: str = "azimuth-pot-open") -> None:
     """A pot's wire breaks for some seconds."""
     box.wait(5.0)
@@ -225,15 +205,6 @@ def test_after_a_fault_a_program_that_took_the_antenna_keeps_it(rise: Box) -> No
     assert rise.loop.status.controlled_by == str(PC)
 
 
-def test_resume_where_nothing_was_stopped_ends_no_tracking(rise: Box) -> None:
-    assert rise.tracker.track("iss") == ""
-    rise.wait(5.0)
-    rise.loop.post(PERSON, Release())
-    rise.wait(5.0)
-    assert rise.tracker.state == "tracking"
-    assert rise.loop.status.flown is not None
-
-
 def test_a_direction_that_the_rotor_cannot_reach_is_refused_and_the_flight_goes_on() -> None:
     begin = pass_of("iss").aos_s
     assert begin is not None
@@ -257,15 +228,6 @@ def test_off_stops_the_antenna(rise: Box) -> None:
     assert rise.loop.status.flown is None
     assert rise.tracker.state == "off"
     assert not rise.loop.status.latched
-
-
-def test_another_target_takes_the_place_of_the_first(rise: Box) -> None:
-    assert rise.tracker.track("iss") == ""
-    rise.wait(5.0)
-    assert rise.tracker.track("moon") == ""
-    rise.wait(5.0)
-    assert rise.loop.status.flown is not None
-    assert rise.loop.status.flown.name == "Moon"
 
 
 def test_what_is_called_tracked_is_what_the_status_shows(rise: Box) -> None:
