@@ -21,7 +21,7 @@ from firmware_sim.parts.mount import MountSpec
 from firmware_sim.parts.receiver import ReceiverSpec, SimReceiver
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
-from rotator.calibrating.entries import Enter, Entry, Yes
+from rotator.calibrating.entries import Entry, Word
 from rotator.calibrating.sky_rig import SkyRig
 from rotator.calibrating.strength import Strength
 from rotator.config.model import Config
@@ -130,7 +130,7 @@ def scan(found: World) -> Outcome:
     ear = _Ear(SimReceiver(found.receiver, clock, off_deg, found.seed), clock)
     rig = SkyRig(config, station, clock, target, clock, receiver=ear)
     said: list[str] = []
-    answers: list[Entry] = [Yes(), Yes(), Enter()]
+    answers: list[Entry] = [Word.YES, Word.YES, Word.ENTER]
     while clock() < LONGEST_S:
         clock.sleep(PERIOD_S)
         rig.loop.cycle()

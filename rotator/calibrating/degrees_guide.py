@@ -12,7 +12,7 @@ from hw.ports import Direction
 from rotator.assembly.calibration import CalibrationTraits
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.axis_state import needs_homing, position_unknown
-from rotator.calibrating.entries import Enter, Number, StopNow, Yes
+from rotator.calibrating.entries import Number, StopNow, Word
 from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import NotTrusted
@@ -41,7 +41,7 @@ class DegreesGuide(AxisGuide):
         number = 3 if self._traits.homes else 2
         low_deg = yield from self._limit(f"{number}. The lowest", facts.min_deg, facts.least_deg)
         high_deg = yield from self._limit(f"{number + 1}. The highest", facts.max_deg, low_deg + LEAST_SPAN_DEG)
-        self._say(*phrases.degrees_summary(low_deg, high_deg))
+        self._say("", f"[{facts.axis.value}]: limits {low_deg:g} to {high_deg:g}, direction checked.")
         if (yield from self._agrees("Save this? y or n:")):
             self.result = AxisCalibrated(facts.axis, None, low_deg, high_deg)
         else:
@@ -134,12 +134,16 @@ class DegreesGuide(AxisGuide):
     # --- limits
 
     def _limit(self, which: str, now_deg: float, least_deg: float) -> Generator[None, None, float]:
-        self._say("", *self._phrases.limit(which))
+        self._say(
+            "",
+            f"{which} angle that it may be sent to: drive it there, or type it.",
+            "   A degree or two before its stop, or earlier, where cables, guy wires or a chimney are in the way.",
+        )
         while True:
             prompt = f"Enter: here; or an angle (in the file: {now_deg:g}):"
             event = yield from self._ask(prompt, "Drive there, then Enter or y; or type the angle.")
             match event:
-                case Enter() | Yes():
+                case Word.ENTER | Word.YES:
                     angle_deg = yield from self._angle_here()
                 case Number(value) if self._is_angle(value):
                     angle_deg = value

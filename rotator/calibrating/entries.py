@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from enum import Enum
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
@@ -33,44 +34,26 @@ class StopNow:
     """Stop the motor now."""
 
 
-@dataclass(frozen=True, slots=True)
-class Yes:
-    pass
+class Word(Enum):
+    """An answer of one letter, and the words that a line may have for it."""
 
-
-@dataclass(frozen=True, slots=True)
-class No:
-    pass
-
-
-@dataclass(frozen=True, slots=True)
-class Enter:
+    YES = ("y", "yes")
+    NO = ("n", "no")
+    ENTER = ("",)
     """Read here, or accept the proposed value."""
+    FINISH = ("f", "finish")
+    """There are no more points."""
+    BACK = ("b", "back")
+    """Take the last point back."""
+    QUIT = ("q", "quit")
+    """Leave; nothing is saved."""
+    HELP = ("?", "h", "help")
+    """Say what the open question accepts."""
 
 
 @dataclass(frozen=True, slots=True)
 class Number:
     value: float
-
-
-@dataclass(frozen=True, slots=True)
-class Finish:
-    """There are no more points."""
-
-
-@dataclass(frozen=True, slots=True)
-class Back:
-    """Take the last point back."""
-
-
-@dataclass(frozen=True, slots=True)
-class Quit:
-    """Leave; nothing is saved."""
-
-
-@dataclass(frozen=True, slots=True)
-class Help:
-    """Say what the open question accepts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +64,7 @@ class Unknown:
     form: str = ""
 
 
-Entry = Press | StopNow | Yes | No | Enter | Number | Finish | Back | Quit | Help | Unknown
+Entry = Press | StopNow | Word | Number | Unknown
 
 TURN_KEYS = {
     "r": (Axis.AZIMUTH, Direction.PLUS),
@@ -90,22 +73,7 @@ TURN_KEYS = {
     "d": (Axis.ELEVATION, Direction.MINUS),
 }
 TURN_WORDS = {"right": "r", "left": "l", "up": "u", "down": "d"} | {key: key for key in TURN_KEYS}
-PLAIN_WORDS: dict[str, Entry] = {
-    "y": Yes(),
-    "yes": Yes(),
-    "n": No(),
-    "no": No(),
-    "": Enter(),
-    "f": Finish(),
-    "finish": Finish(),
-    "b": Back(),
-    "back": Back(),
-    "q": Quit(),
-    "quit": Quit(),
-    "?": Help(),
-    "h": Help(),
-    "help": Help(),
-}
+PLAIN_WORDS = {text: word for word in Word for text in word.value}
 STOP_WORDS = ("s", "stop")
 STOP_KEYS = (" ", "s", "S")
 ARROW_KEYS = {"C": "r", "D": "l", "A": "u", "B": "d"}

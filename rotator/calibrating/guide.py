@@ -10,21 +10,7 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from rotator.calibrating.axis_state import position_unknown
-from rotator.calibrating.entries import (
-    NUMBER_FORM,
-    Back,
-    Enter,
-    Entry,
-    Finish,
-    Help,
-    No,
-    Number,
-    Press,
-    Quit,
-    StopNow,
-    Unknown,
-    Yes,
-)
+from rotator.calibrating.entries import NUMBER_FORM, Entry, Number, Press, StopNow, Unknown, Word
 from rotator.exchange.orders import Order, Stop
 from rotator.exchange.spoken import sender
 from rotator.exchange.status import AxisStatus, Status
@@ -34,7 +20,7 @@ Steps = Generator[None, None, None]
 Asked = Generator[None, None, object]
 """Ends with an entry, or with an event that happened meanwhile."""
 
-ANSWERS = (Yes, No, Enter, Number, Finish, Back, Help, Unknown)
+ANSWERS = (Word, Number, Unknown)
 NOTHING_SAVED = "Nothing is saved."
 LEFT = "Left: nothing is saved."
 ORDER_TAKEN_S = 0.5
@@ -87,7 +73,7 @@ class Guide:
     def step(self, status: Status, entry: Entry | None = None) -> StepResult:
         try:
             self._take(status, entry)
-            if isinstance(entry, Quit):
+            if entry is Word.QUIT:
                 raise Abandoned(LEFT)
             if not self._asking and isinstance(entry, ANSWERS):
                 self._say("Not taken: wait until the box asks.")
@@ -163,9 +149,9 @@ class Guide:
                         self._halt()
                     case Unknown(text, form):
                         self._say(f"{text.strip()!r} means nothing here. {form or f'{accepts} ? lists all keys.'}")
-                    case Help():
+                    case Word.HELP:
                         self._say(f"{accepts} {self._keys}")
-                    case Back() if not may_go_back:
+                    case Word.BACK if not may_go_back:
                         self._say(f"There is nothing to take back here. {accepts}")
                     case entry if entry is not None and self._event is None:
                         return entry
@@ -178,9 +164,9 @@ class Guide:
     def _agrees(self, prompt: str) -> Generator[None, None, bool]:
         while True:
             match (yield from self._ask(prompt, "Type y for yes or n for no.", may_turn=False)):
-                case Yes():
+                case Word.YES:
                     return True
-                case No():
+                case Word.NO:
                     return False
                 case event if event is self._event:
                     pass
@@ -199,10 +185,10 @@ class Guide:
                     return value
                 case Number(_):
                     pass
-                case Enter() if proposed is not None:
+                case Word.ENTER if proposed is not None:
                     self._say(f"  Taken: {proposed:g}°.")
                     return proposed
-                case No() | Back():
+                case Word.NO | Word.BACK:
                     return None
                 case event if event is self._event:
                     pass

@@ -18,7 +18,7 @@ from rotator.calibrating.bearing import (
     possible_angles_deg,
 )
 from rotator.calibrating.compass_guide import KEYS, LEAST_PLACES, PAUSE_S, CompassGuide, CompassReady
-from rotator.calibrating.entries import NUMBER_FORM, Enter, No, Number, Yes
+from rotator.calibrating.entries import NUMBER_FORM, Number, Word
 from rotator.calibrating.facts import NorthFacts
 from rotator.calibrating.guide import LEFT, NOTHING_SAVED, Abandoned, Steps, refused
 from rotator.calibrating.results import AngleConfirmed, NorthFound
@@ -75,12 +75,12 @@ class NorthGuide(CompassGuide):
             while position_unknown(self._axis):
                 accepts = f"y: the offset is right; n leaves. Else the angle: {NUMBER_FORM}"
                 match (yield from self._ask("y, or the angle:", accepts, may_turn=False)):
-                    case Yes():
+                    case Word.YES:
                         return True
                     case Number(angle_deg):
                         if self._is_angle(angle_deg):
                             yield from self._confirm(angle_deg)
-                    case No():
+                    case Word.NO:
                         raise Abandoned(LEFT)
                     case _:
                         self._say(self._accepts)
@@ -111,11 +111,11 @@ class NorthGuide(CompassGuide):
             match (yield from self._ask(f"{offer}{by_hand}Enter goes on.", accepts)):
                 case CompassReady():
                     break
-                case Yes() if may_sweep:
+                case Word.YES if may_sweep:
                     yield from self._sweep()
-                case Enter() if self._calibration.magnetometer >= LEAST_MAGNETOMETER:
+                case Word.ENTER if self._calibration.magnetometer >= LEAST_MAGNETOMETER:
                     break
-                case Enter():
+                case Word.ENTER:
                     self._say(f"   Not yet: {self._calibration}.")
                 case _:
                     self._say(self._accepts)

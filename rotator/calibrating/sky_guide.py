@@ -10,7 +10,7 @@ import math
 from collections.abc import Generator
 from dataclasses import dataclass
 
-from rotator.calibrating.entries import Back, Enter, Entry, Finish, No, Press, StopNow, Yes
+from rotator.calibrating.entries import Entry, Press, StopNow, Word
 from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps, refused
 from rotator.calibrating.results import MountFound
 from rotator.calibrating.sky_facts import SkyFacts
@@ -127,16 +127,16 @@ class SkyGuide(SteeringGuide):
             count = f"{len(self.points)} point{'' if len(self.points) == 1 else 's'}"
             prompt = f"{count}. y: {self._offer}; r l u d: steer; Enter: centred; f: no more."
             match (yield from self._ask(prompt, ACCEPTS, may_go_back=True)):
-                case Yes():
+                case Word.YES:
                     yield from self._go()
-                case Enter():
+                case Word.ENTER:
                     yield from self._take_point()
-                case Back() if self.points:
+                case Word.BACK if self.points:
                     point = self.points.pop()
                     self._say(f"Taken back: the point at {point.azimuth_deg:.1f}°, {point.elevation_deg:.1f}°.")
-                case Back():
+                case Word.BACK:
                     self._say("There is no point to take back.")
-                case Finish() | No():
+                case Word.FINISH | Word.NO:
                     return
                 case _:
                     self._say(self._accepts)

@@ -6,11 +6,11 @@ from top to bottom (`_path`).
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 
 from hw.ports import Direction
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
-from rotator.calibrating.entries import Back, Enter, Finish, No, Yes
+from rotator.calibrating.entries import Word
 from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import READINGS, NotTrusted
@@ -40,7 +40,9 @@ class TableGuide(AxisGuide):
         table = yield from self._points(rising=rising)
         self._say("", *table.lines(self._supply_v, facts.lowest_reading, facts.highest_reading))
         limits = yield from self._limits(table)
-        self._say(*phrases.summary(*limits))
+        self._say(
+            "", f"[{facts.axis.value}]: the table above, limits {limits[0]:g} to {limits[1]:g}, direction checked."
+        )
         if (yield from self._agrees("Save this? y or n:")):
             points = tuple((point.raw, point.angle_deg) for point in table.points)
             self.result = AxisCalibrated(facts.axis, points, *limits)
@@ -64,7 +66,10 @@ class TableGuide(AxisGuide):
     def _points(self, *, rising: bool) -> Generator[None, None, TableDraft]:
         """Both ends, then points between, until the operator has no more. The last one can be taken back."""
         phrases, facts = self._phrases, self.facts
-        ends = ((phrases.low_end, facts.min_deg), (phrases.high_end, facts.max_deg))
+        ends = (
+            (phrases.low_end, phrases.to_low_end, facts.min_deg),
+            (phrases.high_end, phrases.to_high_end, facts.max_deg),
+        )
         drafts = [TableDraft(rising=rising)]
         while True:
             taken = len(drafts) - 1
@@ -82,14 +87,16 @@ class TableGuide(AxisGuide):
             else:
                 self._say("There is no point to take back.")
 
-    def _end(self, table: TableDraft, where: str, proposed_deg: float) -> Generator[None, None, TableDraft | None]:
+    def _end(
+        self, table: TableDraft, where: str, drive_to: Sequence[str], proposed_deg: float
+    ) -> Generator[None, None, TableDraft | None]:
         """The table with this end; None: the last point is to be taken back."""
-        self._say("", *self._phrases.drive_to(where))
+        self._say("", *drive_to)
         while True:
             prompt, accepts = f"At the {where}? Enter or y reads it.", self._phrases.drive_then_read
             event = yield from self._ask(prompt, accepts, may_go_back=True)
             match event:
-                case Enter() | Yes():
+                case Word.ENTER | Word.YES:
                     point = yield from self._read(proposed_deg)
                     try:
                         if point is not None:
@@ -100,7 +107,7 @@ class TableGuide(AxisGuide):
                                 return longer
                     except NotTrusted as reason:
                         self._say(f"Refused: {reason}.")
-                case Back():
+                case Word.BACK:
                     return None
                 case _ if not isinstance(event, AxisMoved):
                     self._say(self._accepts)
@@ -114,11 +121,11 @@ class TableGuide(AxisGuide):
             accepts = f"{self._phrases.drive_then_read} f or n: there are no more points."
             event = yield from self._ask(prompt, accepts, may_go_back=True)
             match event:
-                case Finish() | No():
+                case Word.FINISH | Word.NO:
                     return table
-                case Back():
+                case Word.BACK:
                     return None
-                case Enter():
+                case Word.ENTER:
                     point = yield from self._read(None)
                     try:
                         if point is not None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from rotator.calibrating.entries import Entry, Keyboard, Quit, StopNow, from_line
+from rotator.calibrating.entries import Entry, Keyboard, StopNow, Word, from_line
 from rotator.calibrating.guide import Guide
 
 
@@ -26,7 +26,7 @@ class TypedAhead:
 
     def line(self, text: str | None) -> None:
         """A line waits for its question. `s` stops at once and clears the waiting lines. None: the input has ended."""
-        entry = Quit() if text is None else from_line(text)
+        entry = Word.QUIT if text is None else from_line(text)
         if isinstance(entry, StopNow):
             self._waiting.clear()
         self._waiting.append(entry)

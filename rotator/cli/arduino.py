@@ -17,6 +17,7 @@ from typing import Protocol
 from rich.console import RenderableType
 
 from rotator.assembly.arduino import arduino_station
+from rotator.cli.commands import draws
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals, terminal_console
 from rotator.config.load import load
@@ -60,7 +61,7 @@ def run_arduino(pty: Path, path: Path | None, *, plain: bool) -> None:
     config = load(path)
     start_deg = (config.sim.azimuth.start_deg or 0.0, config.sim.elevation.start_deg or 0.0)
     sketch = arduino_station(config, time.monotonic, time.sleep, start_deg)
-    asyncio.run(_run(sketch, pty, plain=plain))
+    asyncio.run(_run(sketch, pty, plain=plain or not draws()))
 
 
 async def _run(sketch: Sketch, pty: Path, *, plain: bool) -> None:

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import click
 
-from rotator.config.load import SIMULATED, parse
+from rotator.config.load import SIMULATED, parse, profiles, shipped
 from rotator.config.places import INSTALLED
 from rotator.setup import tree
 from rotator.setup.machine import Machine, this_machine
@@ -82,6 +82,24 @@ class Dialogue:
                     return False
                 case typed:
                     self.say(f'"{typed}": type y or n', "    ")
+
+
+def config(name: str | None, to: Path | None, *, listed: bool, asked: bool) -> None:
+    """Print, write or list shipped configurations, or ask for one."""
+    name = SIMULATED if name is None else name
+    if asked:
+        shipped(name)
+        ask(name, to)
+    elif listed and to is not None:
+        raise click.UsageError("--list writes no file: rotator config NAME --to FILE")
+    elif to is not None:
+        tree.write_new(to, shipped(name))
+        click.echo(f"{to} is written. Next:\n  rotator run --config {to}")
+    elif listed:
+        for each in (SIMULATED, *profiles()):
+            click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")
+    else:
+        click.echo(shipped(name), nl=False)
 
 
 def ask(name: str, to: Path | None, *, today: Callable[[], date] = date.today, machine: Machine | None = None) -> None:

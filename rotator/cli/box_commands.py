@@ -1,91 +1,193 @@
-"""The commands of the box itself, at its machine: names, arguments and options. Other files do the work."""
+"""The commands that talk to the running box: names, arguments and options.
 
-# ruff: noqa: PLC0415 - a command loads what it needs and no more
+`console`, `moves` and `track` do the work.
+"""
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import click
 
-from rotator import __version__
-from rotator.cli.commands import CONFIG, FAULT, HERE, PLAIN, Number, draws, examples
+from rotator.cli.commands import ANY_WORDS, CONFIG, YES, Number, NumbersCommand, command
 
-
-@click.command(
-    epilog=examples("rotator run", "rotator run --config station.toml", "rotator run --fault azimuth-pot-open@20")
+AXIS = click.Argument(
+    ["axis"], type=click.Choice(["azimuth", "elevation"], case_sensitive=False), metavar="azimuth|elevation"
 )
-@CONFIG
-@FAULT
-@PLAIN
-def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
-    """Run the box. Without a file: a simulated G-5500.
-
-    It prints where programs connect. Ctrl-C ends it, with every relay off.
-    """
-    # Before the program is loaded: that takes seconds on a small Pi.
-    if "list" not in faults:
-        click.echo(f"rotator {__version__} starts with {path or 'a simulated G-5500'}")
-        if path is None and Path(HERE).exists():
-            click.echo(f"{HERE} is here: `rotator run --config {HERE}` uses it")
-    from rotator.cli.run import run_box
-
-    run_box(path, faults, plain=plain or not draws())
-
-
-@click.command(epilog=examples("rotator arduino --pty run/arduino"))
-@click.option("--pty", default="run/arduino", type=click.Path(path_type=Path), help="The path of its serial port.")
-@CONFIG
-@PLAIN
-def arduino(pty: Path, path: Path | None, plain: bool) -> None:
-    """Run an emulation of the Arduino, to compare it with the box."""
-    from rotator.cli.arduino import run_arduino
-
-    run_arduino(pty, path, plain=plain or not draws())
-
-
-@click.command(epilog=examples("rotator monitor", "rotator monitor --link gs232b --to prog.txt"))
-@CONFIG
-@click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="Write to a new file.")
-@click.option("--link", "links", multiple=True, metavar="NAME", help="Show only this link; may be given several times.")
-@click.option(
-    "--limit-mb",
-    type=Number("megabytes", 0.001),
-    default=10.0,
-    metavar="MB",
-    help="Size limit of the file, 10 MB by default.",
+WAIT = click.Option(
+    ["--no-wait", "wait"], is_flag=True, flag_value=False, default=True, help="Give the order, and end."
 )
-def monitor(path: Path | None, to: Path | None, links: tuple[str, ...], limit_mb: float) -> None:
-    """Show every byte on the links of the running box.
 
-    With its time, live or into a file. Ctrl-C ends it.
-    """
-    from rotator.cli.monitor import watch
+WHERE = command(
+    "where",
+    "console:where",
+    CONFIG,
+    click.Option(["--json", "as_json"], is_flag=True, help="One object; its fields: rotator help commands."),
+    says="""Show where the antenna is, who moves it, and what is wrong.
 
-    watch(path, to, links, limit_mb)
+    The exit code is 3 where an axis has a fault.
+    """,
+    examples=["rotator where", "rotator where --json", "rotator where && echo healthy"],
+)
+POINT = command(
+    "point",
+    "moves:point",
+    CONFIG,
+    WAIT,
+    click.Argument(["azimuth_deg"], type=Number("degrees"), metavar="AZIMUTH"),
+    click.Argument(["elevation_deg"], type=Number("degrees"), metavar="ELEVATION"),
+    cls=NumbersCommand,
+    says="""Point the antenna, and wait until it has arrived.
 
+    AZIMUTH counts from north over east, ELEVATION from the horizon, in degrees. Above 360 AZIMUTH names a turn of the
+    rotor. Ctrl-C stops the antenna; a terminal that closes does not: it goes on to its place. The exit code is 0 when
+    it has arrived, 3 when a fault stopped it.
+    """,
+    examples=["rotator point 180 45", "rotator point 237,5 12,5"],
+)
+TRACK = command(
+    "track",
+    "track:begin",
+    CONFIG,
+    click.Option(
+        ["--clock-is-right"], is_flag=True, help="You have seen that the computer's clock shows the right time."
+    ),
+    click.Argument(["words"], nargs=-1, metavar="[NAME|LOCATOR|AZ EL|FILE.csv|plan|off]"),
+    context_settings=ANY_WORDS,
+    says="""Let the box track a target by itself, from pass to pass.
 
-@click.command(epilog=examples("sudo rotator off --config /etc/rotator/rotator.toml"))
-@CONFIG
-def off(path: Path | None) -> None:
-    """Open every relay while the box is not running.
+    NAME: ISS, 25544, so50, sun, moon, mars, "cas a". It needs [station] in the box's file, and for satellites [sky]
+    elements. The antenna goes to where the target rises and waits there. Any other order ends it. `plan` goes back to
+    what [[sky.follow]] names; `off` tracks nothing. Without words it tells what is tracked. FILE.csv is a table
+    t,az,el: t in seconds from now, or in UTC as 2026-11-22T18:30:00Z.
+    """,
+    examples=["rotator track iss", "rotator track moon", 'rotator track "jn58td long"', "rotator track off"],
+)
+JOG = command(
+    "jog",
+    "moves:jog",
+    CONFIG,
+    WAIT,
+    click.Argument(
+        ["direction"], type=click.Choice(["cw", "ccw", "up", "down"], case_sensitive=False), metavar="cw|ccw|up|down"
+    ),
+    click.Argument(["seconds"], type=Number("seconds", 0.05)),
+    cls=NumbersCommand,
+    says="""Turn one axis for some SECONDS, 5 at most.
 
-    After a crash the kernel may have left some closed.
-    """
-    from rotator.cli.off import relays_off
+    cw is clockwise seen from above, ccw the other way. It works before calibration too. Ctrl-C stops the antenna.
+    """,
+    examples=["rotator jog cw 2", "rotator jog down 0,5"],
+)
+PARK = command(
+    "park",
+    "moves:park",
+    CONFIG,
+    WAIT,
+    says="""Go to the park position, and stay until `rotator resume`.
 
-    relays_off(path)
+    It goes now, and ends what a tracking program does. Ctrl-C stops the antenna; a terminal that closes does not.
+    """,
+    examples=["rotator park", "rotator resume    # afterwards, before anything else moves"],
+)
+STOP = command(
+    "stop",
+    "console:stop",
+    CONFIG,
+    click.Argument(["words"], nargs=-1, metavar=""),
+    says="""Stop the antenna until `rotator resume`. Until then no link can move it.
 
+    Without --config it stops every box that you run, in whichever folder, and the service; with sudo every user's.
+    """,
+    examples=["rotator stop"],
+)
+RESUME = command(
+    "resume",
+    "console:resume",
+    CONFIG,
+    says="Let the antenna move again after a stop. Acknowledges faults.",
+    examples=["rotator resume"],
+)
+HOME = command(
+    "home",
+    "moves:home",
+    CONFIG,
+    YES,
+    AXIS,
+    says="""Turn an axis that counts pulses to its end stop.
 
-@click.command(epilog=examples("rotator doctor --config station.toml"))
-@CONFIG
-@click.option("--json", "as_json", is_flag=True, help="Print the findings as JSON.")
-def doctor(path: Path | None, as_json: bool) -> None:
-    """Check everything that the box needs, and advise repairs.
+    Its count begins there. Watch the antenna; Ctrl-C stops it.
+    """,
+    examples=["rotator home azimuth"],
+)
+CONFIRM = command(
+    "confirm",
+    "console:confirm",
+    CONFIG,
+    AXIS,
+    click.Argument(["angle_deg"], type=Number("degrees"), metavar="DEGREES"),
+    cls=NumbersCommand,
+    says="""Say at which angle an axis stands, in DEGREES.
 
-    The exit code is 0 without errors, 1 with errors.
-    """
-    from rotator.cli.doctor import examine_box
+    A moteus behind a gear needs it after power-on. An axis that measures its angle refuses it.
+    """,
+    examples=["rotator confirm azimuth 123,5"],
+)
+RELAYS_CHECKED = command(
+    "relays-checked",
+    "console:relays_checked",
+    CONFIG,
+    YES,
+    AXIS,
+    says="Say that you have seen: both relays of an axis are open.",
+    examples=["rotator relays-checked azimuth"],
+)
+LET_GO = command(
+    "let-go",
+    "console:let_go",
+    CONFIG,
+    YES,
+    says="""Switch off the motors' torque until `rotator resume`.
 
-    sys.exit(examine_box(path, as_json=as_json))
+    An antenna out of balance then turns.
+    """,
+    examples=["rotator let-go"],
+)
+PANEL = command(
+    "panel",
+    "console:hand",
+    CONFIG,
+    click.Argument(["words"], nargs=-1, required=True, metavar="mode|knob|jog|stop ..."),
+    context_settings=ANY_WORDS,
+    says="""Move a switch or a knob of a simulated box's panel.
+
+    A real panel has hands of its own.
+
+    \b
+    mode auto|manual|jog|park
+    knob azimuth|elevation SHARE     of its travel, 0 to 1
+    jog cw|ccw|up|down SECONDS       held for so long
+    stop press|release
+    """,
+    examples=["rotator panel mode manual", "rotator panel knob azimuth 0,5", "rotator panel jog cw 2"],
+)
+PAIR = command(
+    "pair",
+    "console:pair",
+    CONFIG,
+    click.Option(["--list", "listed"], is_flag=True, help="List all that are paired, with their numbers."),
+    click.Option(["--revoke"], type=click.IntRange(1, 1_000_000), metavar="NUMBER", help="Pair this one no more."),
+    click.Option(["--token"], metavar="NAME", help="Print a token for a program of this name."),
+    says="Print the code that pairs a browser with the box.",
+    examples=["rotator pair", "rotator pair --list", "rotator pair --token logger"],
+)
+TELL = command(
+    "tell",
+    "console:tell",
+    CONFIG,
+    click.Argument(["words"], nargs=-1, type=click.UNPROCESSED),
+    context_settings=ANY_WORDS,
+    says="""Send WORDS to the box's console, for scripts. Without WORDS: list the words.
+
+    It ends as soon as the box has the order.
+    """,
+    examples=["rotator tell help", "rotator tell status json"],
+)

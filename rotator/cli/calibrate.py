@@ -11,7 +11,6 @@ import logging
 import os
 import sys
 import time
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -28,6 +27,7 @@ from rotator.calibrating.sky_rig import check
 from rotator.calibrating.sky_table import Residuals
 from rotator.cli.announced import announced
 from rotator.cli.calibrate_screens import LivePicture, PlainLines, wrapped
+from rotator.cli.commands import draws
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import fault_names, parse_faults
 from rotator.cli.reach import connected, consoles
@@ -45,30 +45,24 @@ from rotator.store.whole import write_whole
 from rotator.views.residual_svg import residual_svg
 
 
-def calibrate_axes(path: Path | None, faults: tuple[str, ...], task: str | None, *, plain: bool) -> int:
-    """`task`: an axis, `north`, or None for both axes. The exit code: 0 when everything has been set up."""
-    chosen = parse_faults(faults, fault_names(path)) if faults else []
-    config = load(path)
-    _refuse_beside_running_box(config, path)
-    _refuse_stopped(config, path)
-    tasks = [axis.value for axis in Axis] if task is None else [task]
-    return asyncio.run(_run(config, path, chosen, tasks, plain=plain))
-
-
-def calibrate_sky(
+def calibrate(  # noqa: PLR0917 - click calls it by keyword
     path: Path | None,
     faults: tuple[str, ...],
-    words: str,
+    what: str | None,
+    target: str | None,
     at_s: float | None,
+    receiver: str | None,
+    svg: Path | None,
     *,
     plain: bool,
-    receiver: str | None = None,
-    svg: Path | None = None,
 ) -> int:
-    """`words`: the target's name. `at_s`: the moment at which a simulated calibration begins; None: now.
+    """`what`: an axis, `north`, `sky`, or None for both axes. The exit code: 0 when everything has been set up.
 
+    For the sky, `target`: a name; None: the Sun. `at_s`: the moment at which a simulated calibration begins; None: now.
     `receiver`: the address of its rigctld, or `sim`; None: a person finds the target. `svg`: the picture of the points.
     """
+    if what != SKY and any(option is not None for option in (target, at_s, receiver, svg)):
+        raise click.UsageError("--target, --at, --receiver and --svg go with: rotator calibrate sky")
     chosen = parse_faults(faults, fault_names(path)) if faults else []
     config = load(path)
     if config.rotor.hardware != "sim" and at_s is not None:
@@ -80,47 +74,49 @@ def calibrate_sky(
     def utc() -> float:
         return time.time() + later_s
 
-    site = build_site(config.station)
-    if site is None:
-        raise CommandFailed(NO_PLACE)
-    try:
-        target = find(words, site, build_catalogue(config))
-        target.sight(utc())
-        if receiver is not None:
-            check(receiver, config)
-    except (Unknown, NotThere, BadAddress) as reason:
-        raise CommandFailed(str(reason)) from None
-    return asyncio.run(
-        _run(config, path, chosen, [SKY], plain=plain, target=target, utc=utc, receiver=receiver, svg=svg)
-    )
-
-
-async def _run(
-    config: Config,
-    path: Path | None,
-    faults: list[tuple[float, str]],
-    tasks: list[str],
-    *,
-    plain: bool,
-    target: Target | None = None,
-    utc: Callable[[], float] = time.time,
-    receiver: str | None = None,
-    svg: Path | None = None,
-) -> int:
-    stop = stop_on_signals()
-    log_to(logging.StreamHandler())
-    # The guide reports faults itself. Log lines between its questions would confuse.
-    logging.getLogger().setLevel(logging.CRITICAL)
+    seen = _target(config, target or "sun", utc(), receiver) if what == SKY else None
+    tasks = [axis.value for axis in Axis] if what is None else [what]
+    plain = plain or not (sys.stdin.isatty() and draws())
     screen: PlainLines | LivePicture = PlainLines() if plain else LivePicture()
-    on_open = partial(_inject, faults)
 
     def drawn(shown: Residuals) -> None:
         if svg is not None:
             _draw(shown, svg, screen)
 
     session = CalibrationSession(
-        config, path, screen, open_station, on_open, target=target, utc=utc, receiver=receiver, draw=drawn
+        config,
+        path,
+        screen,
+        open_station,
+        partial(_inject, chosen),
+        target=seen,
+        utc=utc,
+        receiver=receiver,
+        draw=drawn,
     )
+    return asyncio.run(_run(session, config, path, tasks))
+
+
+def _target(config: Config, words: str, now_s: float, receiver: str | None) -> Target:
+    """Raises CommandFailed, also for a receiver that is none."""
+    site = build_site(config.station)
+    if site is None:
+        raise CommandFailed(NO_PLACE)
+    try:
+        target = find(words, site, build_catalogue(config))
+        target.sight(now_s)
+        if receiver is not None:
+            check(receiver, config)
+    except (Unknown, NotThere, BadAddress) as reason:
+        raise CommandFailed(str(reason)) from None
+    return target
+
+
+async def _run(session: CalibrationSession, config: Config, path: Path | None, tasks: list[str]) -> int:
+    stop = stop_on_signals()
+    log_to(logging.StreamHandler())
+    # The guide reports faults itself. Log lines between its questions would confuse.
+    logging.getLogger().setLevel(logging.CRITICAL)
     # `rotator stop` finds it from any folder.
     with announced(monitor_path(config.state.path, config.monitor.path, os.environ), path):
         return 0 if await session.run(tasks, stop) else 1

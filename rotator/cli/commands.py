@@ -1,6 +1,7 @@
-"""What all commands share on the command line: the groups in `--help`, examples, numbers, and the common options.
+"""What all commands share on the command line: their form, the groups in `--help`, numbers, and the common options.
 
-Knows click. Does not know what a command does.
+Knows click, and that `rotator --help` must not wait for the program: a command loads what it needs when it is carried
+out. Does not know what a command does.
 """
 
 from __future__ import annotations
@@ -9,6 +10,8 @@ import math
 import os
 import re
 import sys
+from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -18,18 +21,17 @@ from click.exceptions import NoArgsIsHelpError
 from rotator.cli.foreground import in_front
 from rotator.cli.lines import say
 
-CONFIG = click.option(
-    "--config", "path", type=click.Path(path_type=Path, readable=False), metavar="FILE", help="The box's file (TOML)."
+CONFIG = click.Option(
+    ["--config", "path"], type=click.Path(path_type=Path, readable=False), metavar="FILE", help="The box's file (TOML)."
 )
-FAULT = click.option(
-    "--fault",
-    "faults",
+FAULT = click.Option(
+    ["--fault", "faults"],
     multiple=True,
     metavar="NAME[@SECONDS]",
     help="Begin this fault in the simulator; `list` prints the names.",
 )
-YES = click.option("--yes", is_flag=True, help="Do not ask.")
-PLAIN = click.option("--plain", is_flag=True, help="Plain lines even in a terminal.")
+YES = click.Option(["--yes"], is_flag=True, help="Do not ask.")
+PLAIN = click.Option(["--plain"], is_flag=True, help="Plain lines even in a terminal.")
 ANY_WORDS = {"ignore_unknown_options": True}
 """What the command does not know itself goes to the box as it is: `-12` is a word, not an option."""
 
@@ -79,9 +81,38 @@ def draws() -> bool:
     return in_front(sys.stdout) and os.environ.get("TERM") not in ("dumb", "unknown")
 
 
-def examples(*lines: str) -> str:
-    """The text after the options of `--help`. Its lines stay as they are."""
-    return "\n".join(("\b", "Example:" if len(lines) == 1 else "Examples:", *(f"  {line}" for line in lines)))
+def command(
+    name: str,
+    work: str | Callable[..., int | None],
+    *params: click.Parameter,
+    says: str,
+    examples: Sequence[str],
+    cls: type[click.Command] = click.Command,
+    **settings: Any,
+) -> click.Command:
+    """A command of the tree, with its help (`says`, and below the options `examples`, whose lines stay as they are).
+
+    `work`: the function that carries it out, as `module:function` of this package: it is loaded then, and no sooner.
+    It gets the parameters by their names, and returns the exit code; None: 0.
+    """
+
+    def carry_out(**given: Any) -> None:
+        function = loaded(work) if isinstance(work, str) else work
+        if code := function(**given):
+            click.get_current_context().exit(code)
+
+    return cls(name, callback=carry_out, params=[*params], help=says, epilog=_below(examples), **settings)
+
+
+def loaded(work: str) -> Callable[..., int | None]:
+    """The function that carries a command out."""
+    module, _, name = work.partition(":")
+    function: Callable[..., int | None] = getattr(import_module(f"rotator.cli.{module}"), name)
+    return function
+
+
+def _below(examples: Sequence[str]) -> str:
+    return "\n".join(("\b", "Example:" if len(examples) == 1 else "Examples:", *(f"  {line}" for line in examples)))
 
 
 def say_mistake(mistake: click.ClickException) -> None:
@@ -113,8 +144,8 @@ def _in_our_words(mistake: click.ClickException) -> str:
 class Commands(click.Group):
     """A group whose commands stand in `--help` under headings, in the order they were added."""
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)
+    def __init__(self, name: str, *, says: str, below: str = "", examples: Sequence[str] = (), **settings: Any) -> None:
+        super().__init__(name, help=says, epilog=below or _below(examples), **settings)
         self._headings: dict[str, list[str]] = {}
 
     def under(self, heading: str, *commands: click.Command) -> None:

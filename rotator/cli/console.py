@@ -17,6 +17,8 @@ from rotator.cli.agree import agree
 from rotator.cli.box import OK, BoxStatus, Refused, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.lines import say
+from rotator.cli.reach import consoles
+from rotator.cli.stop import stop_boxes
 from rotator.control.refused import no_relay_in_doubt
 
 LOOK_S = 0.1
@@ -43,6 +45,12 @@ def where(path: Path | None, *, as_json: bool) -> int:
     for line in lines:
         say(line)
     return FAULTY if faults(status) else 0
+
+
+def stop(path: Path | None, words: Sequence[str]) -> None:
+    """`words`: they do not count, for a stop with more words behind it is a stop."""
+    del words
+    click.echo(stop_boxes(consoles(path), all_of_them=path is None))
 
 
 def resume(path: Path | None) -> None:
@@ -106,31 +114,26 @@ def relays_checked(path: Path | None, axis: str, *, yes: bool) -> None:
     )
 
 
-def pair(path: Path | None) -> None:
-    with RunningBox(path) as box:
-        (code,) = box.order("pair")
-    click.echo(f"{code} is the code. Type it on the page within two minutes; the box's display shows it too.")
-
-
-def paired(path: Path | None) -> None:
-    with RunningBox(path) as box:
-        lines = box.order("pair list")
-    click.echo("\n".join(lines) if lines else "Nothing is paired: `rotator pair` prints a code for a browser.")
-
-
-def revoke(path: Path | None, number: int) -> None:
-    with RunningBox(path) as box:
-        box.order(f"pair revoke {number}")
-    click.echo("It is paired no more.")
-
-
-def token(path: Path | None, name: str) -> None:
-    """Print a token alone, for a script. Raises Refused for a name that is none."""
-    if not name.strip():
+def pair(path: Path | None, *, listed: bool, revoke: int | None, token: str | None) -> None:
+    """Print a code for a browser, the list of all that are paired, or a token alone, for a script. Raises Refused for
+    a name that is none."""
+    if listed + (revoke is not None) + (token is not None) > 1:
+        raise click.UsageError("--list, --revoke and --token: one at a time")
+    if token is not None and not token.strip():
         raise Refused("a token needs a name, by which you can revoke it")
     with RunningBox(path) as box:
-        (printed,) = box.order(f"pair token {name}")
-    click.echo(printed)
+        if listed:
+            text = "\n".join(box.order("pair list"))
+            text = text or "Nothing is paired: `rotator pair` prints a code for a browser."
+        elif revoke is not None:
+            box.order(f"pair revoke {revoke}")
+            text = "It is paired no more."
+        elif token is not None:
+            (text,) = box.order(f"pair token {token}")
+        else:
+            (code,) = box.order("pair")
+            text = f"{code} is the code. Type it on the page within two minutes; the box's display shows it too."
+    click.echo(text)
 
 
 def hand(path: Path | None, words: Sequence[str]) -> None:

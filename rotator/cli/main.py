@@ -14,31 +14,30 @@ import click
 
 from rotator import __version__
 from rotator.cli import box_commands as box
-from rotator.cli import console_commands as console
 from rotator.cli import setup_commands as setup
+from rotator.cli import sky_commands as sky
 from rotator.cli.commands import Commands, say_mistake
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
 from rotator.cli.lines import say
-from rotator.cli.rehearse_command import rehearse
-from rotator.cli.sky_commands import sky
 
 INDENT = len("rotator: ")
 START = """Start here: `rotator run` begins a simulated box; `rotator point 180 45` in another terminal turns it.
 `rotator COMMAND --help` has an example of each command; `rotator help wiring` prints a page of the documentation."""
 
 
-@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]}, epilog=START)
-@click.version_option(__version__, message="rotator %(version)s")
-def cli() -> None:
-    """A rotator controller that PCs take for a Yaesu GS-232."""
-
-
-cli.under("The antenna", console.where, console.point, console.jog, console.park, console.stop, console.resume)
-cli.under("An axis that asks for a person", console.home, console.confirm, console.relays_checked, console.let_go)
-cli.under("The box", box.run, box.doctor, box.monitor, console.pair, console.tell, box.off)
-cli.under("The sky", sky, console.track)
-cli.under("Setting up", setup.show_config, setup.calibrate, setup.set_up)
-cli.under("Without a rotor", rehearse, box.arduino, console.panel)
+cli = Commands(
+    "rotator",
+    says="A rotator controller that PCs take for a Yaesu GS-232.",
+    below=START,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+click.version_option(__version__, message="rotator %(version)s")(cli)
+cli.under("The antenna", box.WHERE, box.POINT, box.JOG, box.PARK, box.STOP, box.RESUME)
+cli.under("An axis that asks for a person", box.HOME, box.CONFIRM, box.RELAYS_CHECKED, box.LET_GO)
+cli.under("The box", setup.RUN, setup.DOCTOR, setup.MONITOR, box.PAIR, box.TELL, setup.OFF)
+cli.under("The sky", sky.SKY, box.TRACK)
+cli.under("Setting up", setup.SHOW_CONFIG, setup.CALIBRATE, setup.SET_UP)
+cli.under("Without a rotor", sky.REHEARSE, setup.ARDUINO, box.PANEL)
 
 
 def main(words: Sequence[str] | None = None) -> None:

@@ -24,6 +24,7 @@ from rotator import __version__
 from rotator.box.app import App
 from rotator.cli.anew import restored, start_anew, text_of
 from rotator.cli.announced import announced, boxes
+from rotator.cli.commands import draws
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import fault_names, parse_faults
 from rotator.cli.foreground import in_front
@@ -47,6 +48,7 @@ PAGE_LOOKS = 30
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
+    plain = plain or not draws()
     chosen = parse_faults(faults, fault_names(path)) if faults else []
     use_one_heap()
     allow_enough()

@@ -30,8 +30,14 @@ SERIALS = (Path("proc/device-tree/serial-number"), Path("sys/firmware/devicetree
 
 
 def usb_serial_port(
-    root: Path, settings: Path | None, *, undo: bool, yes: bool, usb_id: str, model: str | None
+    root: Path, settings: Path | None, *, undo: bool, yes: bool, usb_id: str, model: str | None, device: str | None
 ) -> None:
+    """`device`: build (`up`) or remove (`down`) the USB device now, and change no file."""
+    if device == "up":
+        controller = gadget.up(root / CONFIGFS, root / CONTROLLERS, identity(_serial_number(root), usb_id))
+        return click.echo(f"USB serial port on {controller}")
+    if device == "down":
+        return gadget.down(root / CONFIGFS)
     identity("", usb_id)
     boot = tree.boot_config(root)
     places = usb_serial.Places(root, boot, settings or root / SETTINGS)
@@ -44,6 +50,7 @@ def usb_serial_port(
     else:
         plan = usb_serial.plan(files, places, _pi(root, model, yes=yes), command=_command(root), usb_id=usb_id)
         propose(plan, yes=yes, done=_then(root))
+    return None
 
 
 def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> None:
@@ -82,15 +89,6 @@ def _pi(root: Path, model: str | None, *, yes: bool) -> Pi | None:
     if full is None:
         raise SetupError(f"--pi {model}: no such Pi; there are {', '.join(names)}")
     return known(f"Raspberry Pi {full}")
-
-
-def raise_gadget(root: Path, usb_id: str) -> None:
-    controller = gadget.up(root / CONFIGFS, root / CONTROLLERS, identity(_serial_number(root), usb_id))
-    click.echo(f"USB serial port on {controller}")
-
-
-def lower_gadget(root: Path) -> None:
-    gadget.down(root / CONFIGFS)
 
 
 def identity(serial: str, usb_id: str) -> gadget.Identity:

@@ -41,12 +41,12 @@ SPARED = "here", "to"
 SHORTEST_NAME, GAP = 8, 2
 
 
-def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bool) -> None:
+def show_where(path: Path | None, words: Sequence[str], at_s: float | None, *, as_json: bool) -> None:
     config = load(_file(path))
     site, catalogue = _sky(config, _file(path))
     at_s = time.time() if at_s is None else at_s
     try:
-        target = find(words, site, catalogue)
+        target = find(" ".join(words), site, catalogue)
         seen, error_deg = motion(target, at_s), expected_error_deg(target, at_s, clock_error_s(config))
     except (Unknown, NotThere) as reason:
         raise CommandFailed(str(reason)) from None

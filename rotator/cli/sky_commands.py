@@ -1,6 +1,4 @@
-"""The commands `rotator sky ...`: names, arguments and options. `sky` does the work."""
-
-# ruff: noqa: PLC0415 - a command loads what it needs and no more
+"""The commands of the sky, and the flight over it without a rotor: names, arguments and options."""
 
 from __future__ import annotations
 
@@ -8,95 +6,133 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.commands import ANY_WORDS, CONFIG, Commands, Number, examples
+from rotator.cli.commands import ANY_WORDS, CONFIG, FAULT, Commands, Number, command
 from rotator.cli.utc import utc_time
 
 HOURS = Number("hours", 0.01, 24 * 14)
-JSON = click.option("--json", "as_json", is_flag=True, help="Print as JSON.")
-
-
-FROM = click.option(
-    "--from", "from_s", type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."
+JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print as JSON.")
+FROM = click.Option(
+    ["--from", "from_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."
 )
-AHEAD = click.option("--hours", type=HOURS, default=24.0, metavar="HOURS", help="How far ahead; 24 if left out.")
+AHEAD = click.Option(["--hours"], type=HOURS, default=24.0, metavar="HOURS", help="How far ahead; 24 if left out.")
 
-
-@click.group(cls=Commands, epilog=examples("rotator sky where moon --config station.toml"))
-def sky() -> None:
-    """Show where satellites, Sun and Moon are, and when they pass.
-
-    It needs [station] in the file, and for satellites [sky] elements.
-    """
-
-
-@click.command(context_settings=ANY_WORDS, epilog=examples("rotator sky where moon --at 2026-12-24T18:00:00Z"))
-@CONFIG
-@JSON
-@click.option("--at", "at_s", type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out.")
-@click.argument("words", nargs=-1, required=True, metavar="NAME")
-def where(path: Path | None, as_json: bool, at_s: float | None, words: tuple[str, ...]) -> None:
-    """Show where NAME is.
+WHERE = command(
+    "where",
+    "sky:show_where",
+    CONFIG,
+    JSON,
+    click.Option(
+        ["--at", "at_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."
+    ),
+    click.Argument(["words"], nargs=-1, required=True, metavar="NAME"),
+    context_settings=ANY_WORDS,
+    says="""Show where NAME is.
 
     NAME: ISS, 25544, so50, sun, moon, mars, "cas a", another station's locator, or AZ EL.
-    """
-    from rotator.cli.sky import show_where
-
-    show_where(path, " ".join(words), at_s, as_json=as_json)
-
-
-@click.command(epilog=examples("rotator sky passes iss so50 --hours 12 --least 10"))
-@CONFIG
-@JSON
-@FROM
-@AHEAD
-@click.option(
-    "--least",
-    "least_deg",
-    type=Number("degrees", 0, 90),
-    default=0.0,
-    metavar="DEG",
-    help="Leave out passes that stay lower than this.",
+    """,
+    examples=["rotator sky where moon --at 2026-12-24T18:00:00Z"],
 )
-@click.argument("names", nargs=-1, metavar="[NAME...]")
-def passes(  # noqa: PLR0917 - click calls it by keyword
-    path: Path | None, as_json: bool, from_s: float | None, hours: float, least_deg: float, names: tuple[str, ...]
-) -> None:
-    """Show when each NAME rises and sets.
+PASSES = command(
+    "passes",
+    "sky:show_passes",
+    CONFIG,
+    JSON,
+    FROM,
+    AHEAD,
+    click.Option(
+        ["--least", "least_deg"],
+        type=Number("degrees", 0, 90),
+        default=0.0,
+        metavar="DEG",
+        help="Leave out passes that stay lower than this.",
+    ),
+    click.Argument(["names"], nargs=-1, metavar="[NAME...]"),
+    says="""Show when each NAME rises and sets.
 
     Without NAME: every satellite known.
-    """
-    from rotator.cli.sky import show_passes
-
-    show_passes(path, names, from_s, hours, least_deg, as_json=as_json)
-
-
-@click.command(epilog=examples("rotator sky plan --hours 12"))
-@CONFIG
-@JSON
-@FROM
-@AHEAD
-def plan(path: Path | None, as_json: bool, from_s: float | None, hours: float) -> None:
-    """Show which passes the antenna flies.
+    """,
+    examples=["rotator sky passes iss so50 --hours 12 --least 10"],
+)
+PLAN = command(
+    "plan",
+    "sky:show_plan",
+    CONFIG,
+    JSON,
+    FROM,
+    AHEAD,
+    says="""Show which passes the antenna flies.
 
     Of the targets that [[sky.follow]] names: when it sets off for each pass, where it waits, and why a pass is left
     out. The antenna begins at its park position.
-    """
-    from rotator.cli.sky import show_plan
-
-    show_plan(path, from_s, hours, as_json=as_json)
-
-
-@click.command(epilog=examples("rotator sky elements"))
-@CONFIG
-@JSON
-def elements(path: Path | None, as_json: bool) -> None:
-    """Show which elements there are, and how old.
+    """,
+    examples=["rotator sky plan --hours 12"],
+)
+ELEMENTS = command(
+    "elements",
+    "sky_elements:show_elements",
+    CONFIG,
+    JSON,
+    says="""Show which elements there are, and how old.
 
     And what came of fetching them.
-    """
-    from rotator.cli.sky_elements import show_elements
+    """,
+    examples=["rotator sky elements"],
+)
+SKY = Commands(
+    "sky",
+    says="""Show where satellites, Sun and Moon are, and when they pass.
 
-    show_elements(path, as_json=as_json)
+    It needs [station] in the file, and for satellites [sky] elements.
+    """,
+    examples=["rotator sky where moon --config station.toml"],
+)
+SKY.under("Commands", WHERE, PASSES, PLAN, ELEMENTS)
 
+REHEARSE = command(
+    "rehearse",
+    "rehearse:rehearse_pass",
+    CONFIG,
+    FAULT,
+    click.Argument(["word"], required=False, metavar="[PASS.csv|NAME]"),
+    click.Option(
+        ["--via"],
+        type=click.Choice(["gs232", "rotctld", "track"]),
+        default="gs232",
+        help="The protocol of the orders; `track`: the box knows the pass beforehand.",
+    ),
+    click.Option(
+        ["--trace"], type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file."
+    ),
+    click.Option(
+        ["--svg"], type=click.Path(path_type=Path, dir_okay=False), help="Draw the flight into this SVG file."
+    ),
+    click.Option(["--json", "as_json"], is_flag=True, help="Print the summary as JSON."),
+    click.Option(
+        ["--target"], metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box."
+    ),
+    click.Option(
+        ["--at", "at_s"],
+        type=utc_time,
+        metavar="UTC",
+        help="The pass begins then, and is recognised in the orders; with --target: the first pass that ends after "
+        "this.",
+    ),
+    click.Option(["--arduino"], is_flag=True, help="Fly the pass with the emulated Arduino instead of the box."),
+    says="""Fly a satellite pass on the simulated rotor.
 
-sky.under("Commands", where, passes, plan, elements)
+    It prints how far off the antenna was; the exit code is 3 where a --fault holds an axis at the end. The pass is a
+    NAME of the list that `rotator rehearse` prints, or a file.
+
+    The first line of such a file is t,az,el. Each further line is a moment in seconds, and the satellite's azimuth and
+    elevation in degrees, with decimal points: 12.5,274.6,8.1. Your tracking program can export them. With an azimuth
+    above 360 or an elevation above 90 the file names the rotor's turns.
+
+    The time is simulated: ten minutes take some seconds. So is the rotor, also where
+    the file of --config names a real one.
+    """,
+    examples=[
+        "rotator rehearse                  # lists the passes that are there",
+        "rotator rehearse north-1-iss",
+        "rotator rehearse mine.csv --config station.toml --svg flight.svg",
+    ],
+)

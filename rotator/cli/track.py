@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os.path
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,24 +24,25 @@ PATIENCE_S = 60.0
 """A plan takes some seconds, on a slow computer ten times as long."""
 
 
-def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
+def begin(path: Path | None, words: Sequence[str], *, clock_is_right: bool) -> None:
     """Returns when the antenna goes to wait for the target, or follows it. Raises CommandFailed.
 
     Without words: tell what is tracked.
     """
-    table = _table(words) if words else None
+    target = " ".join(words)
+    table = _table(target) if target else None
     with RunningBox(path) as box:
         if clock_is_right:
             box.order("clock-is-right")
-        if not words:
+        if not target:
             return click.echo(_goes_on(box))
         if table is not None:
-            _hand_in(box, table, Path(words).stem)
+            _hand_in(box, table, Path(target).stem)
         else:
-            box.order(f"track {words}")
-        if words.casefold() == "off":
+            box.order(f"track {target}")
+        if target.casefold() == "off":
             return click.echo("The box tracks nothing.")
-        if words.casefold() == "plan":
+        if target.casefold() == "plan":
             return click.echo("The box flies its plan: `rotator sky plan` shows it.")
         state = _planned(box)
         if state.startswith("ended: "):
@@ -48,7 +50,7 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
         if state.startswith("refused: "):
             raise CommandFailed(f"{state.removeprefix('refused: ')}; what was tracked goes on")
         if _is_nothing(state):
-            return click.echo(_stays(words))
+            return click.echo(_stays(target))
         tracks = _tracks(box)
     if tracks is None:
         raise CommandFailed("the box has a plan, and the antenna did not take it up: `rotator where` tells more")

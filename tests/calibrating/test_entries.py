@@ -11,14 +11,13 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.calibrating.entries import (
     NUMBER_FORM,
-    Enter,
     Entry,
-    Help,
     Keyboard,
     Number,
     Press,
     StopNow,
     Unknown,
+    Word,
     from_line,
 )
 from rotator.config.load import parse
@@ -88,7 +87,7 @@ def test_a_refused_text_is_gone_and_backspace_mends_one_before_enter() -> None:
 
 @pytest.mark.parametrize("text", ["?", "h", "help"])
 def test_help_is_an_entry(text: str) -> None:
-    assert from_line(text) == Help()
+    assert from_line(text) == Word.HELP
 
 
 def test_an_arrow_within_a_number_turns_nothing_and_drops_nothing() -> None:
@@ -119,7 +118,7 @@ def test_keys_that_turn() -> None:
     assert keys("r")[0] == Press(Axis.AZIMUTH, Direction.PLUS, 0.7)
     assert keys("D")[0] == Press(Axis.ELEVATION, Direction.MINUS, UNCALIBRATED_JOG_S)
     assert keys("\x1b[D")[0] == keys("\x1bOD")[0] == Press(Axis.AZIMUTH, Direction.MINUS, 0.7)
-    assert keys("12\x7f\x7f") == [Enter()]
+    assert keys("12\x7f\x7f") == [Word.ENTER]
     assert from_line("r 0,5") == Press(Axis.AZIMUTH, Direction.PLUS, 0.5)
     assert from_line("r 99") == Press(Axis.AZIMUTH, Direction.PLUS, UNCALIBRATED_JOG_S)
     assert isinstance(from_line("r fast"), Unknown)

@@ -81,28 +81,29 @@ def test_every_kind_of_rotor_finds_its_north(north_calibration: Any, kind: str) 
     assert averaged_in_part is (kind == "servo")
 
 
-def test_what_is_in_force_already_is_not_counted_twice(north_calibration: Any) -> None:
-    text = G5500.replace("[azimuth]\n", "[azimuth]\noffset_deg = -170\n") + TRUE + COMPASS
-    run = learnt(mounted(north_calibration(text), 175.0))
+OFFSET = G5500.replace("[azimuth]\n", "[azimuth]\noffset_deg = -170\n")
+HOT = G5500.replace("[azimuth]\n", "[azimuth]\nlongest_run_s = 12\nrest_s = 60\n")
+MAGNETIC = f'[mount]\nnorth = "magnetic"\ndeclination_deg = {DECLINATION_DEG}\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "askew_deg", "offset_deg", "said"),
+    [
+        (OFFSET + TRUE + COMPASS, 175.0, 175.0, "In the file now: -170."),
+        # The boom is 12° off true north, so 7.9° off the magnetic one.
+        (G5500 + MAGNETIC + COMPASS, 12.0, 12.0 - DECLINATION_DEG, "the box adds mount.declination_deg by itself"),
+        (G5500 + TRUE + COMPASS + "offset_deg = 90\n", 12.0 - 90.0, 12.0, "(8 places)"),
+        (HOT + TRUE + COMPASS, 12.0, 12.0, "(8 places)"),
+    ],
+    ids=["in force already", "a magnetic scale", "across the boom", "a motor that has to cool"],
+)
+def test_what_the_offset_counts_from(
+    north_calibration: Any, text: str, askew_deg: float, offset_deg: float, said: str
+) -> None:
+    run = learnt(mounted(north_calibration(text), askew_deg))
     run.say("y", "y")
-    assert run.guide.result.offset_deg == pytest.approx(175.0, abs=1.0)
-    assert "In the file now: -170." in run.text
-
-
-def test_a_magnetic_scale_stays_one(north_calibration: Any) -> None:
-    text = G5500 + f'[mount]\nnorth = "magnetic"\ndeclination_deg = {DECLINATION_DEG}\n' + COMPASS
-    # The boom is 12° off true north, so 7.9° off the magnetic one.
-    run = learnt(mounted(north_calibration(text), 12.0))
-    run.say("y", "y")
-    assert run.guide.result.offset_deg == pytest.approx(12.0 - DECLINATION_DEG, abs=1.0)
-    assert "the box adds mount.declination_deg by itself" in run.text
-
-
-def test_a_compass_that_is_mounted_across_the_boom(north_calibration: Any) -> None:
-    run = mounted(north_calibration(G5500 + TRUE + COMPASS + "offset_deg = 90\n"), 12.0 - 90.0)
-    learnt(run)
-    run.say("y", "y")
-    assert run.guide.result.offset_deg == pytest.approx(12.0, abs=1.0)
+    assert run.guide.result.offset_deg == pytest.approx(offset_deg, abs=1.0)
+    assert said in run.text
 
 
 def test_what_agrees_with_the_file_is_said_to(north_calibration: Any) -> None:
@@ -166,17 +167,6 @@ def test_stop_stops_it_on_its_way_and_the_place_may_be_left_out(north_calibratio
     assert "(7 places)" in run.text
 
 
-def test_leaving_on_the_way_stops_it(north_calibration: Any) -> None:
-    run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
-    run.now("y")
-    until(run, run.moving)
-    run.now("q")
-    run.wait(0.1)
-    assert not run.moving()
-    assert run.guide.ended
-    assert run.guide.result is None
-
-
 # --- what a compass has learnt
 
 
@@ -221,30 +211,78 @@ def test_without_a_compass_in_the_file(north_calibration: Any) -> None:
         north_calibration(G5500 + TRUE)
 
 
-def test_without_a_declination(north_calibration: Any) -> None:
-    run = north_calibration(G5500 + COMPASS)
-    assert "write mount.declination_deg (east of true north; west is minus)" in run.text
+@pytest.mark.parametrize(
+    ("text", "more", "said"),
+    [
+        (G5500 + COMPASS, {}, "write mount.declination_deg (east of true north; west is minus)"),
+        (G5500 + TRUE + COMPASS, {"bad_luck": "compass-gone"}, "Refused: no compass: "),
+        (KINDS["relay-pulse"] + TRUE + COMPASS, {"counts": True}, "has to be set up first, it lacks homing"),
+    ],
+)
+def test_what_is_refused_before_anything_turns(
+    north_calibration: Any, tmp_path: Path, text: str, more: dict[str, Any], said: str
+) -> None:
+    counts = {"counts": tmp_path / "counts.json"} if more.pop("counts", False) else {}
+    run = north_calibration(text, **more, **counts)
+    run.wait(5.0)
+    assert said in run.text
     assert run.guide.ended
     assert run.guide.result is None
+    assert run.world.relay_starts == 0
 
 
-def test_a_compass_that_is_gone(north_calibration: Any) -> None:
-    run = north_calibration(G5500 + TRUE + COMPASS, bad_luck="compass-gone")
-    run.wait(5.0)
-    assert "Refused: no compass: " in run.text
-    assert "0x28" in run.text
-    assert run.guide.ended
-
-
-def test_a_compass_that_goes_while_it_is_read(north_calibration: Any) -> None:
+@pytest.mark.parametrize(
+    ("happens", "said"),
+    [
+        ("q", "nothing is saved"),
+        ("azimuth-pot-open", "Refused: azimuth: pot open or shorted"),
+        ("compass-gone", "0x28"),
+    ],
+)
+def test_what_ends_it_on_its_way(north_calibration: Any, happens: str, said: str) -> None:
     run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
     run.now("y")
-    until(run, lambda: run.guide.prompt == "Reading the compass; hands off.")
-    run.world.inject("compass-gone")
-    run.wait(6.0)
+    until(run, lambda: run.guide.prompt.startswith("Reading") if happens == "compass-gone" else run.moving())
+    if happens == "q":
+        run.now("q")
+    else:
+        run.world.inject(happens)
+    run.wait(0.1 if happens == "q" else 6.0)
     assert run.guide.ended
-    assert "Refused: no compass: " in run.text
+    assert not run.moving()
+    assert said in run.text
     assert run.guide.result is None
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "text", "said"),
+    [
+        ("learns", False, G5500, "the compass knows its own error too little (0 of 3)"),
+        ("wander_deg", 15.0, G5500, "degrees while the antenna stands"),
+        ("hard_iron_deg", 40.0, G5500, "steel is too near, move it further out on the boom. Nothing is saved."),
+        ("learns", True, "[elevation]\nmin_deg = 40\nmax_deg = 90\n", "degrees from level, 30 are allowed"),
+    ],
+    ids=["forgets", "swings", "steel", "a boom that cannot be lowered"],
+)
+def test_a_place_where_the_compass_cannot_be_believed(
+    north_calibration: Any, field: str, value: Any, text: str, said: str
+) -> None:
+    run = learnt(mounted(north_calibration(text + TRUE + COMPASS), 12.0))
+    setattr(run.chip, field, value)
+    assert said in run.say("y")
+    if not run.guide.ended:
+        assert run.guide.prompt.startswith("Try this place again?")
+        run.say(*["n"] * 8)
+    assert "Refused: " in run.text
+    assert run.guide.result is None
+
+
+def test_a_little_steel_averages_out_all_the_way_round(north_calibration: Any) -> None:
+    run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
+    run.chip.hard_iron_deg = 8.0
+    run.say("y", "y")
+    assert run.guide.result.offset_deg == pytest.approx(12.0, abs=1.0)
+    assert run.guide.result.uncertainty_deg > 2.9
 
 
 def test_a_compass_that_never_learns(north_calibration: Any) -> None:
@@ -259,80 +297,13 @@ def test_a_compass_that_never_learns(north_calibration: Any) -> None:
     assert run.guide.result is None
 
 
-def test_one_that_forgets_at_a_place(north_calibration: Any) -> None:
-    run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
-    run.chip.learns = False
-    assert "the compass knows its own error too little (0 of 3)" in run.say("y")
-    assert run.guide.prompt.startswith("Try this place again?")
-    run.chip.learns = True
-    run.say("y", "y")
-    assert isinstance(run.guide.result, NorthFound)
-
-
-def test_a_compass_that_swings(north_calibration: Any) -> None:
-    run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
-    run.chip.wander_deg = 15.0
-    assert "degrees while the antenna stands" in run.say("y")
-    run.say(*["n"] * 8)
-    assert "Refused: 0 places are too few, 3 are needed." in run.text
-    assert run.guide.result is None
-
-
-def test_steel_near(north_calibration: Any) -> None:
-    run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
-    run.chip.hard_iron_deg = 40.0
-    assert "steel is too near, move it further out on the boom. Nothing is saved." in run.say("y")
-    assert run.guide.ended
-    assert run.guide.result is None
-
-
-def test_a_little_steel_averages_out_all_the_way_round(north_calibration: Any) -> None:
-    run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
-    run.chip.hard_iron_deg = 8.0
-    run.say("y", "y")
-    assert run.guide.result.offset_deg == pytest.approx(12.0, abs=1.0)
-    assert run.guide.result.uncertainty_deg > 2.9
-
-
-def test_a_boom_that_cannot_be_lowered(north_calibration: Any) -> None:
-    text = "[elevation]\nmin_deg = 40\nmax_deg = 90\n" + TRUE + COMPASS
-    run = learnt(mounted(north_calibration(text), 12.0))
-    assert "degrees from level, 30 are allowed" in run.say("y")
-
-
-def test_an_azimuth_that_has_never_been_homed(north_calibration: Any, tmp_path: Path) -> None:
-    run = north_calibration(KINDS["relay-pulse"] + TRUE + COMPASS, counts=tmp_path / "counts.json")
-    run.wait(1.0)
-    assert "the azimuth has to be set up first, it lacks homing" in run.text
-    assert run.guide.ended
-
-
-def test_a_pot_that_breaks_on_the_way(north_calibration: Any) -> None:
-    run = learnt(mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0))
-    run.now("y")
-    until(run, run.moving)
-    run.world.inject("azimuth-pot-open")
-    run.wait(1.0)
-    assert "Refused: azimuth: pot open or shorted" in run.text
-    assert run.guide.ended
-    assert not run.moving()
-
-
-def test_a_motor_that_has_to_cool_is_waited_for(north_calibration: Any) -> None:
-    text = G5500.replace("[azimuth]\n", "[azimuth]\nlongest_run_s = 12\nrest_s = 60\n") + TRUE + COMPASS
-    run = learnt(mounted(north_calibration(text), 12.0))
-    run.say("y", "y")
-    assert run.guide.result.offset_deg == pytest.approx(12.0, abs=1.0)
-
-
 # --- a controller that does not know where it stands
 
 
-def lost(north_calibration: Any, text: str = "", start_deg: float = 90.0) -> Any:
+def lost(north_calibration: Any) -> Any:
     """Two moteus controllers after power-on; the compass knows its errors."""
-    offset = "offset_deg = 12\n"
-    config = KINDS["moteus"].replace("max_deg = 360\n", "max_deg = 360\n" + offset + text) + TRUE + COMPASS
-    run = north_calibration(config, start_deg=(start_deg, 0.0), bad_luck="azimuth-power-cycled")
+    config = KINDS["moteus"].replace("max_deg = 360\n", "max_deg = 360\noffset_deg = 12\n") + TRUE + COMPASS
+    run = north_calibration(config, start_deg=(90.0, 0.0), bad_luck="azimuth-power-cycled")
     assert "Which is known: the offset or the angle?" in run.text
     return run
 
@@ -361,25 +332,18 @@ def test_who_does_not_agree_changes_nothing(north_calibration: Any) -> None:
     assert run.rig.loop.status.azimuth.angle_deg is None
 
 
-def test_in_the_overlap_the_operator_chooses(north_calibration: Any) -> None:
-    config = KINDS["moteus"].replace("max_deg = 360", "max_deg = 450") + TRUE + COMPASS
-    run = north_calibration(config, start_deg=(400.0, 0.0), bad_luck="azimuth-power-cycled")
+@pytest.mark.parametrize(("max_deg", "start_deg"), [(450, 400.0), (360, 1.0)], ids=["in the overlap", "near an end"])
+def test_where_the_compass_cannot_tell_the_turn_the_operator_chooses(
+    north_calibration: Any, max_deg: int, start_deg: float
+) -> None:
+    config = KINDS["moteus"].replace("max_deg = 360", f"max_deg = {max_deg}") + TRUE + COMPASS
+    run = north_calibration(config, start_deg=(start_deg, 0.0), bad_luck="azimuth-power-cycled")
     run.say("y")
     run.wait(15.0)
     run.say()
     assert run.guide.prompt == "Which of them?"
-    run.say("400", "y")
-    assert run.rig.loop.status.azimuth.angle_deg == pytest.approx(400.0, abs=0.1)
-
-
-def test_near_an_end_the_compass_cannot_tell_a_turn_from_the_next(north_calibration: Any) -> None:
-    run = lost(north_calibration, start_deg=1.0)
-    run.say("y")
-    run.wait(15.0)
-    run.say()
-    assert run.guide.prompt == "Which of them?"
-    run.say("0", "y")
-    assert run.rig.loop.status.azimuth.angle_deg == pytest.approx(1.0 + 12.0, abs=0.1)
+    run.say(f"{start_deg:.0f}", "y")
+    assert run.rig.loop.status.azimuth.angle_deg == pytest.approx(start_deg, abs=0.1)
 
 
 def test_where_the_angle_is_known_the_compass_tells_the_offset(north_calibration: Any) -> None:

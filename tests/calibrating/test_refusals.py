@@ -14,11 +14,75 @@ def at_the_low_end(run: Any) -> Any:
     return run
 
 
-def test_an_antenna_that_turned_the_wrong_way(calibration: Any) -> None:
+LOW = ("r", "y", "l", *"lllll")
+"""The direction check, and on to the low end."""
+SWIFT = "[sim.azimuth]\nspeed_dps = 30\n"
+HIGH = (*LOW, "", "-2", *"rrrrrrrrr", "", "452")
+"""Both ends, of the swift motor."""
+
+
+@pytest.mark.parametrize(
+    ("before", "line", "says", "asks"),
+    [
+        ((), "y", "Turn it first", "Press r"),
+        ((), "é", "'é' means nothing here. Turn it first: r is clockwise", "Press r"),
+        ((), "b", "nothing to take back here. Turn it first", "Press r"),
+        (("l",), "l", "", "Press r"),
+        (("r",), "b", "nothing to take back here. Type y", "Did the antenna turn"),
+        (("r",), "n", "swap azimuth_cw and azimuth_ccw", ""),
+        (LOW, "b", "no point to take back", "At the low end"),
+        ((*LOW, ""), "b", "", "At the low end"),
+        ((*LOW, "", "b"), "y", "It reads 0.", "Which angle is that"),
+        ((*LOW, ""), "999", "-360 to 720", "Which angle is that"),
+        ((*LOW, ""), "y", "Type one number of degrees, for example 438.5 or -2, and press Enter. Enter alone takes 0;",
+         "Which angle is that"),
+        ((*LOW, ""), "450", "the file has 0° for this end", "Is 450° right?"),
+        ((*LOW, "", "0", "r", ""), "450", "too close to be two ends", "At the high end"),
+        ((*LOW, "", "0", "r", ""), "5", "too close, or swapped", "At the high end"),
+        ((*LOW, "", "450", "y", *"rrrrrr", ""), "0", "too close, or swapped", ""),
+        (("r", "y", "l", "", "0", *"l" * 18, ""), "450", "the direction check saw the reading rise", "At the high end"),
+    ],
+)  # fmt: skip
+def test_an_answer_that_cannot_be_taken(
+    calibration: Any, before: tuple[str, ...], line: str, says: str, asks: str
+) -> None:
     run = calibration()
-    assert "swap azimuth_cw and azimuth_ccw" in run.say("r", "n")
-    assert run.guide.ended
+    run.say(*before)
+    said = run.say(line)
+    assert says in said
+    assert run.guide.prompt.startswith(asks) or not asks
     assert run.guide.result is None
+
+
+@pytest.mark.parametrize(
+    ("lines", "says", "asks"),
+    [
+        ((*HIGH, "l", "l", "", "500"), "not between the ends", ""),
+        ((*HIGH, "l", "l", "", "-2"), "in the table already", ""),
+        ((*HIGH, "l", "l", "", "332"), "Taken", "Another point?"),
+        ((*HIGH, "l", "l", "", "330", "l", "l", "", "380"), "not monotonic", ""),
+        ((*HIGH, "f", "-5", "460"), "the limits must lie within -2 to 452", "Lowest angle"),
+        ((*HIGH, "f", "", "b"), "", "Lowest angle"),
+        ((*HIGH, "f", "", "", "n"), "Nothing is saved.", ""),
+    ],
+)
+def test_points_and_limits_that_cannot_be(calibration: Any, lines: tuple[str, ...], says: str, asks: str) -> None:
+    run = calibration(SWIFT)
+    run.say(*lines)
+    assert says in run.text
+    assert run.guide.prompt.startswith(asks) or not asks
+    assert run.guide.result is None
+
+
+@pytest.mark.parametrize(
+    ("fault", "presses", "says"),
+    [("azimuth-motor-stalled", "r", "stands still"), ("azimuth-pot-stuck", "rr", "is the pot on its shaft?")],
+)
+def test_a_turn_that_the_sensor_does_not_see(calibration: Any, fault: str, presses: str, says: str) -> None:
+    run = calibration()
+    run.world.inject(fault)
+    assert says in run.say(*presses)
+    assert run.guide.prompt.startswith("Press r")
 
 
 def test_both_relays_drive_one_direction(calibration: Any) -> None:
@@ -28,98 +92,6 @@ def test_both_relays_drive_one_direction(calibration: Any) -> None:
     run.world.inject("azimuth-motor-reversed")
     run.wait(0.2)
     assert "the same way" in run.say("l")
-    assert run.guide.ended
-    assert run.guide.result is None
-
-
-def test_a_motor_that_does_not_run(calibration: Any) -> None:
-    run = calibration()
-    run.world.inject("azimuth-motor-stalled")
-    assert "stands still" in run.say("r")
-    assert run.guide.prompt.startswith("Press r")
-
-
-def test_a_pot_that_does_not_turn(calibration: Any) -> None:
-    run = calibration()
-    run.world.inject("azimuth-pot-stuck")
-    run.say("r", "r")
-    assert "is the pot on its shaft?" in run.text
-    assert run.guide.prompt.startswith("Press r")
-
-
-def test_the_wrong_way_does_not_count(calibration: Any) -> None:
-    run = calibration()
-    run.say("l", "l")
-    assert run.guide.prompt.startswith("Press r")
-
-
-def test_an_answer_without_a_turn(calibration: Any) -> None:
-    run = calibration()
-    assert "Turn it first" in run.say("y")
-
-
-def test_ends_too_close(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    run.say("", "0", "r")
-    assert "too close to be two ends" in run.say("", "450")
-    assert "too close, or swapped" in run.say("", "5")
-    assert run.guide.prompt.startswith("At the high end")
-
-
-def test_ends_swapped(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    assert "the file has 0° for this end" in run.say("", "450", "y")
-    run.drive("r", 6)
-    assert "too close, or swapped" in run.say("", "0")
-
-
-def test_the_high_end_where_the_low_one_should_be(calibration: Any) -> None:
-    run = calibration()
-    run.say("r", "y", "l", "", "0")
-    run.drive("l", 18)
-    assert "the direction check saw the reading rise" in run.say("", "450")
-
-
-def test_an_angle_that_is_none(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    assert "-360 to 720" in run.say("", "999")
-    assert "Type one number of degrees, for example 438.5 or -2, and press Enter. Enter alone takes 0;" in run.say("y")
-    run.say("n")
-    assert run.guide.prompt.startswith("At the low end")
-
-
-@pytest.mark.parametrize(
-    ("angle", "reason"),
-    [("500", "not between the ends"), ("-2", "in the table already"), ("332", "Taken")],
-)
-def test_a_point_between_that_is_not(swift: Any, angle: str, reason: str) -> None:
-    run = at_the_low_end(swift())
-    run.say("", "-2", *["r"] * 9)
-    run.say("", "452", "l", "l")
-    assert reason in run.say("", angle)
-
-
-def test_not_monotonic(swift: Any) -> None:
-    run = at_the_low_end(swift())
-    run.say("", "-2", *["r"] * 9)
-    run.say("", "452", *["l"] * 2)
-    run.say("", "330", *["l"] * 2)
-    assert "not monotonic" in run.say("", "380")
-
-
-def test_limits_beyond_the_ends(swift: Any) -> None:
-    run = at_the_low_end(swift())
-    run.say("", "0", *["r"] * 9)
-    run.say("", "450", "f", "-5", "460")
-    assert "the limits must lie within 0 to 450" in run.text
-    assert run.guide.prompt.startswith("Lowest angle")
-
-
-@pytest.mark.parametrize("answer", ["n"])
-def test_an_operator_who_does_not_want_it(swift: Any, answer: str) -> None:
-    run = at_the_low_end(swift())
-    run.say("", "0", *["r"] * 9)
-    run.say("", "450", "f", "", "", answer)
     assert run.guide.ended
     assert run.guide.result is None
 
@@ -143,55 +115,26 @@ def test_help_says_what_each_question_takes_and_all_keys(calibration: Any) -> No
         assert run.guide.prompt == prompt
 
 
-def test_back_before_there_is_anything_says_so(calibration: Any) -> None:
-    run = calibration()
-    assert "nothing to take back here. Turn it first" in run.say("b")
-    assert "nothing to take back here. Type y" in run.say("r", "b")
-    assert "no point to take back" in run.say("y", "l", "b")
-
-
-def test_back_at_the_angle_goes_back_to_the_end_and_yes_reads_it(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    run.say("", "b")
-    assert run.guide.prompt.startswith("At the low end")
-    assert "It reads 0." in run.say("y")
-
-
-def test_back_at_the_highest_angle_asks_for_the_lowest_again(swift: Any) -> None:
-    run = at_the_low_end(swift())
-    run.say("", "0", *["r"] * 9)
-    run.say("", "450", "f", "", "b")
-    assert run.guide.prompt.startswith("Lowest angle")
-
-
-def test_an_entry_that_means_nothing_says_what_is_accepted(calibration: Any) -> None:
-    run = calibration()
-    assert "'é' means nothing here. Turn it first: r is clockwise" in run.say("é")
-
-
 # --- readings
 
 
-def test_a_noisy_reading(calibration: Any) -> None:
-    run = at_the_low_end(calibration("[sim.azimuth]\npot_noise_deg = 2.2\n"))
-    assert "a noisy reading" in run.say("")
+@pytest.mark.parametrize(
+    ("sim", "fault", "says"),
+    [
+        ("[sim.azimuth]\npot_noise_deg = 2.2\n", "", "a noisy reading"),
+        ("", "azimuth-pot-jumps", "a noisy reading"),
+        ("", "azimuth-wind-turns", "moved by +0.0"),
+    ],
+)
+def test_a_reading_that_is_not_trusted(calibration: Any, sim: str, fault: str, says: str) -> None:
+    run = at_the_low_end(calibration(sim))
+    run.now("")
+    run.wait(1.0)
+    if fault:
+        run.world.inject(fault)
+    run.say()
+    assert says in run.text
     assert run.guide.prompt.startswith("At the low end")
-
-
-def test_a_spark_on_the_wire(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    run.now("")
-    run.wait(1.0)
-    run.world.inject("azimuth-pot-jumps")
-    assert "a noisy reading" in run.say()
-
-
-def test_an_antenna_that_is_pushed(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    run.now("")
-    run.wait(1.0)
-    run.world.inject("azimuth-wind-turns")
-    assert "moved by +0.0" in run.say()
 
 
 def test_a_key_while_it_reads(calibration: Any) -> None:

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Iterator
+
+import click
 import pytest
 
-from rotator.cli.main import main
+from rotator.cli.commands import loaded
+from rotator.cli.main import cli, main
 
 
 def errors(words: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
@@ -59,3 +64,20 @@ def test_help_as_a_word(words: str, first: str, capsys: pytest.CaptureFixture[st
 def test_capitals_are_no_mistake(capsys: pytest.CaptureFixture[str]) -> None:
     _, text = errors(["jog", "CW", "x"], capsys)
     assert "invalid value for 'SECONDS'" in text
+
+
+def leaves(group: click.Group) -> Iterator[click.Command]:
+    for command in group.commands.values():
+        if isinstance(command, click.Group):
+            yield from leaves(command)
+        else:
+            yield command
+
+
+@pytest.mark.parametrize("command", list(leaves(cli)), ids=lambda command: command.name)
+def test_the_work_of_a_command_takes_what_is_on_its_command_line(command: click.Command) -> None:
+    """It is loaded when the command is carried out: a name that is wrong would be found only then."""
+    assert command.callback is not None
+    work = inspect.getclosurevars(command.callback).nonlocals["work"]
+    function = loaded(work) if isinstance(work, str) else work
+    inspect.signature(function).bind(**{str(param.name): None for param in command.params})

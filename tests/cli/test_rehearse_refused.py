@@ -15,27 +15,6 @@ def flown(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (None, "cannot be read: "),
-        ("", "is empty. The first line is t,az,el; "),
-        ("t,az,el\n0,0,0\n", "a pass needs two rows or more"),
-        ("t,az,el\n0,0,0\n1,north,0\n", "t, az and el must be numbers"),
-        ("t,az,el\n0,0,0\n0,1,0\n", ":3: t must rise from row to row"),
-    ],
-    ids=["missing", "empty", "one row", "a word", "no time"],
-)
-def test_a_bad_pass(rotator_here: Rotator, tmp_path: Path, text: str | None, said: str) -> None:
-    path = tmp_path / "bad.csv"
-    if text is not None:
-        path.write_text(text)
-    done = rotator_here("rehearse", path, "--json")
-    assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr.startswith(f"rotator: {path}")
-    assert said in done.stderr
-
-
-@pytest.mark.parametrize(
     ("words", "said", "code"),
     [
         (("--via", "telepathy"), "'telepathy' is not one of", 2),

@@ -12,10 +12,6 @@ MARCH_S = 1_740_787_200.0
 ADDRESS = "http://192.168.1.5:8233/elements"
 
 
-def test_a_box_without_satellites_has_no_such_check(pi: Pi) -> None:
-    assert not pi.looks_at("elements")
-
-
 def test_old_and_broken_files_are_told(pi: Pi) -> None:
     folder = pi.machine.at("/var/lib/rotator")
     folder.mkdir(parents=True, exist_ok=True)
