@@ -51,10 +51,3 @@ def test_a_port_that_is_somebody_s_file(rotator: Start, tmp_path: Path) -> None:
     done = rotator("arduino", "--pty", tmp_path / "uno")
     assert done.returncode == 1
     assert done.stderr.startswith(f"rotator: {tmp_path}/uno: there is a file already, where pty makes a port: move it")
-
-
-def test_a_bad_file(rotator: Start, tmp_path: Path) -> None:
-    (tmp_path / "bad.toml").write_text("[sim.azimuth]\nspeed_dps = -6\n")
-    done = rotator("arduino", "--config", tmp_path / "bad.toml")
-    assert done.returncode == 2
-    assert "sim.azimuth.speed_dps = -6: must be greater than 0" in done.stderr

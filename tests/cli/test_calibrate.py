@@ -125,25 +125,11 @@ def test_ctrl_c_while_it_turns(start: Start, station: Path, signum: int) -> None
     assert [path.name for path in station.parent.iterdir()] == ["station.toml"]
 
 
-def test_leaving(start: Start) -> None:
-    text, code = finish(start("azimuth"), "q")
-    assert code == 1
-    assert "nothing is saved" in text
-
-
 def test_without_a_file_the_lines_for_one_are_shown() -> None:
     done = AxisCalibrated(Axis.ELEVATION, ((0.0312, -2.0), (0.97, 92.0)), 0.0, 90.0)
     elevation = parse(as_toml(done), "shown").elevation
     assert elevation.calibration == [(0.0312, -2.0), (0.97, 92.0)]
     assert elevation.direction_checked
-
-
-def test_a_bad_file(start: Start, tmp_path: Path) -> None:
-    path = tmp_path / "bad.toml"
-    path.write_text("[azimuth]\nmin = 3\n")
-    text, code = finish(start("--config", str(path)))
-    assert code == 2
-    assert "did you mean" in text
 
 
 def test_a_fault_of_the_simulator(start: Start, station: Path) -> None:

@@ -38,11 +38,6 @@ def test_an_object_for_programs(rotator_here: Rotator, config: Path) -> None:
     assert {check["name"] for check in said["checks"]} >= {"configuration", "python", "pots", "groups"}
 
 
-def test_without_a_file_it_looks_at_what_would_run(rotator_here: Rotator) -> None:
-    configuration = checks(rotator_here("doctor", "--json"))[0]
-    assert configuration["found"].startswith(("the shipped one", "/etc/rotator/rotator.toml"))
-
-
 def test_a_configuration_that_cannot_be_used(rotator_here: Rotator, tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
     path.write_text('[rotor]\nhardware = "pie"\n')
@@ -51,17 +46,6 @@ def test_a_configuration_that_cannot_be_used(rotator_here: Rotator, tmp_path: Pa
     assert "must be one of sim, pi" in checks(answer)[0]["found"]
     assert {check["name"]: check["ok"] for check in checks(answer)}["python"] is True
     assert rotator_here("doctor", "--config", path).returncode == 2
-
-
-def test_real_hardware_where_there_is_none(rotator_here: Rotator, tmp_path: Path) -> None:
-    path = tmp_path / "real.toml"
-    path.write_text('[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip250"\n[adc]\nbus = 250\n')
-    answer = rotator_here("doctor", "--config", path, "--json")
-    ok = {check["name"]: check["ok"] for check in checks(answer)}
-    assert answer.returncode == 1
-    assert answer.stderr == ""
-    assert (ok["GPIO chip"], ok["I2C bus"], ok["pots"]) == (False, False, None)
-    assert not any("check itself failed" in check["found"] for check in checks(answer))
 
 
 def test_a_fault_of_the_running_box_is_an_error(rotator_here: Rotator, start: Start, config: Path) -> None:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from contextlib import suppress
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ import pytest
 
 from release.environment import START
 from rotator.cli import main as commands
+from tests.search import some
 
 Start = Callable[..., Any]
 
@@ -67,3 +69,33 @@ def test_the_installer_writes_the_same_launcher() -> None:
     script = (Path(__file__).parents[2] / "install/version.sh").read_text()
     launcher = script[script.index("launcher() {") :].partition("cat <<END\n")[2].partition("END\n")[0]
     assert launcher == START.format(home="$1")
+
+
+PRESSES = """
+import sys
+
+class CtrlC:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            raise KeyboardInterrupt
+
+sys.meta_path.insert(0, CtrlC())
+sys.argv = ["rotator", {command!r}]
+from rotator.__main__ import main
+main()
+"""
+"""A Ctrl-C that comes at the import of one module: the same moment each time."""
+
+
+@pytest.mark.search
+@pytest.mark.parametrize(
+    ("module", "command"),
+    some(list(product(["click", "pydantic", "rotator.config.load"], ["run", "where", "stop", "doctor", "calibrate"]))),
+)
+def test_at_the_import_of_a_module(command: str, module: str, tmp_path: Path) -> None:
+    script = PRESSES.format(module=module, command=command)
+    ended = subprocess.run(
+        [sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert "Traceback" not in ended.stderr
+    assert ended.returncode != 0

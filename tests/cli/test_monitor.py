@@ -102,34 +102,16 @@ def test_a_file_that_is_full_says_so(box: Any, start: Start, config: Path, send:
     assert recorder.errors.endswith("in record.txt: the file is full: 0.001 MB\n")
 
 
-# --- what it says when it cannot
-
-
-def test_no_box(rotator: Rotator, config: Path) -> None:
-    config.write_text(config.read_text() + '[monitor]\npath = "nowhere/monitor"\n')
-    done = rotator("monitor", "--config", config)
-    assert done.returncode == 1
-    assert done.stderr == (
-        "rotator: no box runs here: nothing answers at nowhere/monitor. Start it with `rotator run`, "
-        "or name its file with --config\n"
-    )
-
-
-def test_a_link_there_is_not(box: Any, rotator: Rotator, config: Path) -> None:
-    done = rotator("monitor", "--config", config, "--link", "gs232c")
-    assert done.returncode == 1
-    assert done.stderr == "rotator: no link is called gs232c; there are: gs232b, shack\n"
-
-
-def test_a_file_that_is_there(box: Any, rotator: Rotator, config: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("--link gs232c", "no link is called gs232c; there are: gs232b, shack"),
+        ("--to mine.txt", "mine.txt is there already: give another name"),
+        ("--to nowhere/x.txt", "nowhere/x.txt cannot be written to: No such file or directory"),
+    ],
+)
+def test_what_it_cannot_do(box: Any, rotator: Rotator, config: Path, tmp_path: Path, *, words: str, said: str) -> None:
     (tmp_path / "mine.txt").write_text("mine\n")
-    done = rotator("monitor", "--config", config, "--to", "mine.txt")
-    assert done.returncode == 1
-    assert done.stderr == "rotator: mine.txt is there already: give another name\n"
+    done = rotator("monitor", "--config", config, *words.split())
+    assert (done.returncode, done.stderr) == (1, f"rotator: {said}\n")
     assert (tmp_path / "mine.txt").read_text() == "mine\n"
-
-
-def test_a_file_that_cannot_be(box: Any, rotator: Rotator, config: Path) -> None:
-    done = rotator("monitor", "--config", config, "--to", "nowhere/x.txt")
-    assert done.returncode == 1
-    assert done.stderr == "rotator: nowhere/x.txt cannot be written to: No such file or directory\n"

@@ -17,6 +17,8 @@ Start = Callable[..., Any]
 Rotator = Callable[..., Any]
 Send = Callable[[bytes], None]
 
+REAL = '[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip99"\n'
+NO_GPIO = pytest.mark.skipif(bool(list(Path("/dev").glob("gpiochip*"))), reason="this machine has GPIO")
 BAD = """
 [rotor]
 hardwear = "pi"
@@ -56,17 +58,9 @@ def test_a_signal_ends_it_in_mid_motion(start: Start, config: Path, send: Send, 
     send(b"W440 090\r")
     box.until(r"to 440\.0° CW")
     assert box.stop(signum) == 0
+    assert re.search(r"The box has ended .* azimuth \d+\.\d°, elevation \d+\.\d°\.\n$", box.rest)
     assert not (tmp_path / "gs232").is_symlink()
     assert "Traceback" not in box.errors + box.rest
-
-
-def test_orders_move_it(start: Start, config: Path, send: Send) -> None:
-    box = start("run", "--config", config)
-    box.until("elevation 0°\n")
-    send(b"W235 025\r")
-    box.until(r"azimuth 23\d°[^A-Z\n]*elevation 2\d°[^A-Z\n]*\n")
-    assert box.stop() == 0
-    assert re.search(r"The box has ended .* azimuth 23\d\.\d°, elevation 2\d\.\d°\.\n$", box.rest)
 
 
 # --- a configuration that cannot be used
@@ -91,45 +85,32 @@ def test_every_fault_of_the_file_at_once_and_nothing_touched(rotator: Rotator, c
     assert not (tmp_path / "gs232").is_symlink()
 
 
-@pytest.mark.parametrize("content", [None, b"[rotor\n", b"\xff\xfe[rotor]\n"], ids=["missing", "no TOML", "no text"])
-def test_a_file_that_cannot_be_read(rotator_here: Rotator, tmp_path: Path, content: bytes | None) -> None:
-    path = tmp_path / "mine.toml"
-    if content is not None:
-        path.write_bytes(content)
-    done = rotator_here("run", "--config", path)
-    assert done.returncode == 2
-    assert done.stderr.startswith(f"{path}: 1 mistake\n  ")
-    assert "Traceback" not in done.stderr
-
-
-def test_a_real_station_s_bad_file_is_refused_before_its_hardware_is_looked_for(
-    rotator_here: Rotator, config: Path
-) -> None:
-    config.write_text('[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip99"\ndead_time_s = 0\n')
-    done = rotator_here("run", "--config", config)
-    assert done.returncode == 2
-    assert "relays.dead_time_s = 0: must be greater than or equal to 0.05" in done.stderr
-    assert "gpiochip" not in done.stderr
-
-
 # --- what is missing is said in a sentence
 
 
-def test_missing_hardware(rotator_here: Rotator, config: Path) -> None:
-    config.write_text('[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip99"\n')
-    done = rotator_here("run", "--config", config)
-    assert done.returncode == 1
-    assert done.stderr.startswith("rotator: GPIO")
-    assert "/dev/gpiochip99" in done.stderr
-    assert len(done.stderr.splitlines()) == 1
-
-
-@pytest.mark.skipif(bool(list(Path("/dev").glob("gpiochip*"))), reason="this machine has GPIO")
-def test_no_gpio_at_all(rotator_here: Rotator, config: Path) -> None:
-    config.write_text('[rotor]\nhardware = "pi"\n')
-    done = rotator_here("run", "--config", config)
-    assert (done.returncode, len(done.stderr.splitlines())) == (1, 1)
-    assert "found none at all" in done.stderr
+@pytest.mark.parametrize(
+    ("content", "code", "said", "lines"),
+    [
+        (None, 2, "mine.toml: 1 mistake\n  ", 2),
+        ("[rotor\n", 2, "mine.toml: 1 mistake\n  ", 2),
+        ("\udcff\udcfe[rotor]\n", 2, "mine.toml: 1 mistake\n  ", 2),
+        # Refused before its hardware is looked for.
+        (f"{REAL}dead_time_s = 0\n", 2, "relays.dead_time_s = 0: must be greater than or equal to 0.05", 2),
+        (REAL, 1, "/dev/gpiochip99", 1),
+        pytest.param('[rotor]\nhardware = "pi"\n', 1, "found none at all", 1, marks=NO_GPIO),
+    ],
+    ids=["missing", "no TOML", "no text", "a mistake of a real station", "no such chip", "no GPIO"],
+)
+def test_what_cannot_run_is_said_in_a_sentence(
+    rotator_here: Rotator, tmp_path: Path, *, content: str | None, code: int, said: str, lines: int
+) -> None:
+    path = tmp_path / "mine.toml"
+    if content is not None:
+        path.write_text(content, encoding="utf-8", errors="surrogateescape")
+    done = rotator_here("run", "--config", path)
+    assert (done.returncode, len(done.stderr.splitlines())) == (code, lines)
+    assert said in done.stderr
+    assert ("gpiochip" in done.stderr) is ("gpiochip" in said)
 
 
 def test_a_port_in_use(rotator: Rotator, config: Path) -> None:
@@ -204,13 +185,3 @@ def test_a_fault_stops_its_axis_and_says_so(start: Start, config: Path) -> None:
     assert "limit" in box.until(r"FAULT azimuth: [^\n]*rotator help [^\n]*\n")
     assert box.stop() == 0
     assert "FAULT azimuth" in box.errors
-
-
-@pytest.mark.parametrize("more", ["", 'spi = "kernel"\n'], ids=["lines", "kernel"])
-def test_a_simulated_mcp3208_reads_the_pots(start: Start, config: Path, send: Send, more: str) -> None:
-    config.write_text(config.read_text() + f'[adc]\nkind = "mcp3208"\n{more}')
-    box = start("run", "--config", config)
-    box.until("elevation 0°\n")
-    send(b"W060 010\r")
-    box.until(r"azimuth (5|6)\d°[^A-Z\n]*elevation (9|1\d)°[^A-Z\n]*\n")
-    assert box.stop() == 0

@@ -60,20 +60,6 @@ def test_space_stops_and_latches_and_resume_releases(box: Any, send: Send) -> No
     assert box.ends() == 0
 
 
-def test_park_and_enter_parks_and_latches(box: Any, send: Send) -> None:
-    picture_with(box, "SIM A:000")
-    send(b"W060 030\r")
-    picture_with(box, "SIM A:06", without=("●",))
-    box.press("p")
-    picture_with(box, "> p_", "SIM A:06", without=("STOPPED by", "●"))
-    box.press("ark\r")
-    picture_with(box, "SIM A:00", "STORM PARK", HELD, without=("●",))
-    send(b"W120 030\r")
-    picture_with(box, "W120 030", "SIM A:00", "STORM PARK", HELD, without=("●",))
-    box.press(QUIT)
-    assert box.ends() == 0
-
-
 def test_q_gives_the_terminal_back_as_it_was(box: Any, tmp_path: Path) -> None:
     box.frame()
     assert box.modes() != box.modes_before, "keys act without Enter"
@@ -82,31 +68,6 @@ def test_q_gives_the_terminal_back_as_it_was(box: Any, tmp_path: Path) -> None:
     assert box.modes() == box.modes_before
     assert not (tmp_path / "gs232").is_symlink()
     assert "Traceback" not in box.rest
-
-
-def test_control_c_is_q(box: Any) -> None:
-    box.frame()
-    box.press("\x03")
-    assert box.ends() == 0
-    assert box.modes() == box.modes_before
-
-
-def test_any_other_key_does_nothing(box: Any, send: Send) -> None:
-    box.frame()
-    send(b"R\r")
-    picture_with(box, "● CW")
-    for key in ("x", "\r", "\x1b[A", "ä", "r", "\r", "\x1b", "p", "\x7f", "\r"):
-        box.press(key)
-    picture_with(box, "● CW", without=("STOPPED by",))
-    box.press(QUIT)
-    assert box.ends() == 0
-
-
-def test_plain_lines_on_demand(start_in_terminal: Start, config: Path) -> None:
-    box = start_in_terminal("run", "--config", config, "--plain")
-    assert "╭" not in box.until("azimuth 0°  elevation 0°")
-    box.press("\x03")
-    assert box.ends() == 0
 
 
 def test_keys_act_where_nothing_can_be_drawn(start_in_terminal: Start, config: Path) -> None:
