@@ -84,10 +84,6 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.passes --svg docs/img/passes.svg
 	$(BIN)/python -m benchmarks.one_pass docs/img/one-pass.svg
 	$(BIN)/python -m benchmarks.kinds
-	$(BIN)/python -m benchmarks.rotors
-	$(BIN)/python -m benchmarks.mount
-	$(BIN)/python -m benchmarks.schedule
-	$(BIN)/python -m benchmarks.scan
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
 	$(BIN)/python -m benchmarks.startup

@@ -1,20 +1,23 @@
 """The axis angles to which an order of a drill may lead, and the goals that follow.
 
-Knows turns, shifts by the panel, the way over the top, and targets that waver. Does not know which orders have effect.
+Knows turns, the way over the top, and that a target which moves may be waited for at an end of the range. Does not
+know which orders have effect.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from collections.abc import Set as AbstractSet
 
 from benchmarks.drills.goals import TURN_DEG, ZENITH_DEG, AxisOrders, Goal, Ranges
 from benchmarks.drills.script import Event
-from benchmarks.drills.shifts import Shifts
-from benchmarks.drills.wavering import Wavering
 
 STREAM_S = 12.0
 """Two aims of one sender within this time belong to a stream, whose target moves between them."""
+REMEMBERS_S = 120.0 + 96.0
+"""Within this time after a target has moved the antenna may wait for it at an end of the range, or unwind there ahead
+of it (docs/pointing.md)."""
 
 
 class AimAngles:
@@ -39,23 +42,16 @@ class AimAngles:
         self._recognised = recognised
         self._lacking = lacking
         self._over_top = over_top
-        self.shifts = Shifts()
-        self._wavering: dict[str, Wavering] = {}
-        """By sender, and under "" for all senders together: orders without effect then hide no moving target."""
-
-    def rescaled(self) -> None:
-        """The ranges are others."""
-        self._wavering.clear()
-
-    def forget(self) -> None:
-        """All orders end."""
-        for wavering in self._wavering.values():
-            wavering.forget()
+        self.shifted = False
+        """The panel has shifted the target in AUTO: by how much is not followed, until the mode changes."""
+        self._azimuth_deg = math.nan
+        self._moved_s = -math.inf
+        """When an order last named another azimuth than the one before it."""
 
     def aim(self, event: Event, axis: str, angles_deg: tuple[float, ...], ends_deg: tuple[float, ...] = ()) -> None:
         if axis == self._lacking:
             return
-        if event.who in self._recognised:
+        if event.who in self._recognised or self.shifted:
             self._axes[axis].goals[event.who] = Goal(said_s=event.at_s)
             return
         goals, rate_dps = self._axes[axis].goals, 0.0
@@ -72,15 +68,9 @@ class AimAngles:
         over = any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
         return over or self._ranges["azimuth"].flips or self._over_top()
 
-    def may_shift_over_top(self) -> bool:
-        goals = self._axes["elevation"].goals.values()
-        angles_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
-        return any(max(self.shifts.shifted("elevation", angle_deg)) > ZENITH_DEG for angle_deg in angles_deg)
-
     def aim_elevation(self, event: Event, elevation_deg: float) -> None:
         span = self._ranges["elevation"]
-        shifted_deg = self.shifts.shifted("elevation", elevation_deg)
-        angles_deg = tuple(angle for each in shifted_deg for angle in span.elevations_deg(each))
+        angles_deg = span.elevations_deg(elevation_deg)
         before = self._axes["elevation"].goals.get(event.who)
         if before and event.what == "aim" and event.number(0) > TURN_DEG:
             angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
@@ -88,15 +78,12 @@ class AimAngles:
 
     def aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Enter the goal of azimuth. An order beyond 360° may be refused: the older order then stays, for both axes."""
-        turns_deg = [
-            angle_deg
-            for shifted_deg in self.shifts.shifted("azimuth", event.number(0))
-            for angle_deg in self._ranges["azimuth"].turns_deg(shifted_deg, elevation_deg)
-        ]
         span = self._ranges["azimuth"]
-        watched = [self._wavering.setdefault(who, Wavering(span.low_deg, span.high_deg)) for who in ("", event.who)]
-        found_deg = {end_deg for each in watched for end_deg in each.ends(event.at_s, turns_deg, elevation_deg)}
-        ends_deg = tuple(found_deg)
+        turns_deg = span.turns_deg(event.number(0), elevation_deg)
+        if event.number(0) != self._azimuth_deg:
+            self._moved_s = -math.inf if math.isnan(self._azimuth_deg) else event.at_s
+            self._azimuth_deg = event.number(0)
+        ends_deg = (span.low_deg, span.high_deg) if event.at_s - self._moved_s < REMEMBERS_S else ()
         angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self._axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):

@@ -6,8 +6,6 @@ due (`silence`).
 
 from __future__ import annotations
 
-from typing import Any
-
 from benchmarks.drills.axis_case import AxisCase
 from benchmarks.drills.card import Card
 from benchmarks.drills.judges import Judges
@@ -39,8 +37,6 @@ class WorldEvents:
         self._silence, self._troubles, self._card = silence, troubles, card
         self._stand: frozenset[str] = frozenset()
         """The axes whose readings stand still."""
-        self.new_tables: dict[str, dict[str, Any]] = {}
-        """Keys of the configuration that a person has changed: the next run of the program has them."""
         self._waited = False
         """A write that a program has begun does not return."""
 
@@ -55,9 +51,6 @@ class WorldEvents:
         now_s = event.at_s
         if event.what == "card":
             self._card.become(event.number(0))
-            return
-        if event.what == "config":
-            self.new_tables.setdefault(event.text(0), {})[event.text(1)] = event.args[2]
             return
         if event.what == "file":
             self._card.change(event.text(0), event.text(1), now_s)

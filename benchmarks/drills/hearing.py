@@ -13,7 +13,7 @@ from benchmarks.drills.box import Box
 from benchmarks.drills.event_loops import EventLoop
 from benchmarks.drills.orders import Orders
 from benchmarks.drills.script import PAGE, Event
-from benchmarks.drills.speech import parts, said
+from benchmarks.drills.speech import said
 from benchmarks.drills.world import World
 
 MOST_ACTS_S = 0.01
@@ -56,10 +56,7 @@ class Hearing:
         """Bytes of a link or a person: they wake the control thread, as any order does."""
         if not (self._page if event.who == PAGE else self._links).takes(event):
             return
-        if parts(event) != [event]:
-            for part in parts(event):
-                self.hear(part)
-        elif event.what == "leave":
+        if event.what == "leave":
             self._orders.note(event)
             self.box.leave(event.who)
         elif event.what in ("recognised", "waits"):

@@ -55,8 +55,8 @@ class InForce:
         at_end: Callable[[str, int], bool] = lambda _axis, _way: False,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
-        self._spans: dict[str, Ranges] = {}
-        self._park_deg: dict[str, float] = {}
+        self._spans = dict(zip(AXES, ranges, strict=True))
+        self._park_deg = dict(zip(AXES, park_deg, strict=True))
         self.lacking = lacking
         self._left_alone = left_alone
         self._parks_idle = parks_idle
@@ -86,15 +86,8 @@ class InForce:
         self._aims = AimAngles(self.axes, self._spans, self._tracked.recognised, lacking=lacking, over_top=over_top)
         self.heard = 0
         """How many orders there have been."""
-        self.rescale(ranges, park_deg)
         self._knob: Event | None = None
         """The latest turn of a knob of the panel."""
-
-    def rescale(self, ranges: tuple[Ranges, Ranges], park_deg: tuple[float, float]) -> None:
-        """The ranges and the park position in true degrees, as the program's configuration has them from now on."""
-        self._spans.update(zip(AXES, ranges, strict=True))
-        self._park_deg.update(zip(AXES, park_deg, strict=True))
-        self._aims.rescaled()
 
     @property
     def attended(self) -> bool:
@@ -123,7 +116,7 @@ class InForce:
         self.stops.restart(now_s, pressed=self._panel.pressed)
         self._heard_again(now_s)
         self.ended_at_s = now_s
-        self._aims.shifts.cleared()
+        self._aims.shifted = False
         self._held_off.forget()
         self._modes = False
         self._modes_known_s = now_s + STILL_AT_MOST_S
@@ -167,7 +160,7 @@ class InForce:
                 self._forget(now_s, turned.since_s)
                 self._silenced.forget()
                 self._held_off.forget()
-                self._aims.shifts.cleared()
+                self._aims.shifted = False
                 self._knob_seen_since(turned.since_s)
             if turned.releases:
                 self._release(now_s)
@@ -227,7 +220,6 @@ class InForce:
     def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self.sure = False
         self.stops.end_motion()
-        self._aims.forget()
         self._tracked.stopped(now_s, said_before_s)
         for axis in self.axes:
             self._end(axis, now_s, said_before_s)

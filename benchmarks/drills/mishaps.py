@@ -1,4 +1,4 @@
-"""Troubles of the world, late cycles and ends of the program, at random moments or soon after an order.
+"""Troubles of the world, each with its end, if it has one.
 
 Knows which trouble which kind of rotor can have, and how often. Does not know orders, nor the seed.
 """
@@ -8,31 +8,9 @@ from __future__ import annotations
 import random
 
 from benchmarks.drills.boxes import BOTH, Mast
-from benchmarks.drills.scattered import at
-from benchmarks.drills.script import CLOCK, PROGRAM, WORLD, Arg, Event
+from benchmarks.drills.script import Arg
 
 BADS = ("zero", "full", "far", "near", "last")
-
-
-def _when(chance: random.Random, seconds: float, moments_s: list[float]) -> float:
-    """A moment at random, often within seconds of an order: while the motor starts, runs, stops, or waits."""
-    if chance.random() < 0.6:
-        return chance.choice(moments_s) + chance.uniform(-0.3, 6.0)
-    return chance.choice((0.0, chance.uniform(0.0, seconds)))
-
-
-def troubles(chance: random.Random, mast: Mast, seconds: float, moments_s: list[float]) -> list[Event]:
-    """Faults, one or several at a time, and their ends."""
-    events: list[Event] = []
-    for _ in range(chance.choice((0, 0, 1, 1, 1, 2, 2, 3, 4))):
-        at_s, lasts_s = _when(chance, seconds, moments_s), 10.0 ** chance.uniform(-1.0, 2.5)
-        begins, ends = trouble(chance, mast)
-        events.append(at(at_s, WORLD, *begins))
-        if ends and chance.random() < 0.7:
-            events.append(at(at_s + lasts_s, WORLD, *ends))
-    return events
-
-
 Happening = tuple[Arg, ...]
 
 
@@ -72,23 +50,3 @@ def trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening], 
         names += [f"{axis}-low-switch-open", f"{axis}-high-switch-open"]
     name = chance.choice(names)
     return ("fault", name), ("clear", name)
-
-
-def times(chance: random.Random, seconds: float, moments_s: list[float]) -> list[Event]:
-    """Late cycles, a bus that hangs, and ends of the program while the world goes on."""
-    events: list[Event] = []
-    for _ in range(chance.choice((0, 0, 0, 1, 2))):
-        at_s = _when(chance, seconds, moments_s)
-        match chance.randrange(4):
-            case 0:
-                events.append(at(at_s, CLOCK, "stalled", chance.choice((0.5, 1.5, 5.0, 20.0))))
-            case 1:
-                events.append(at(at_s, CLOCK, "late", chance.choice((0.1, 0.3, 0.6, 1.0, 5.0))))
-            case 2:
-                events.append(at(at_s, CLOCK, "hung", chance.choice((0.1, 0.2, 0.5, 3.0))))
-            case _:
-                events.append(at(at_s, CLOCK, "jitter", chance.uniform(1.0, 60.0), chance.choice((0.02, 0.1, 0.3))))
-    for _ in range(chance.choice((0, 0, 0, 0, 1, 2))):
-        what = chance.choice(("restart", "kill"))
-        events.append(at(_when(chance, seconds, moments_s), PROGRAM, what, chance.choice((0.5, 2.0, 5.0, 30.0))))
-    return events

@@ -1,4 +1,5 @@
-"""How a mast was put up: where its scale begins, how far it may turn, how exactly it is to point, where it parks.
+"""How a mast was put up: where its scale begins, how far it may turn, how exactly it is to point, where it parks, and
+which sensors it has.
 
 Draws keys of the configuration with a random stream of its own: all other keys of a box depend on its seed only. Knows
 no event of a drill.
@@ -10,12 +11,29 @@ import random
 from dataclasses import replace
 from typing import Any
 
-from benchmarks.drills.boxes import BOTH, Mast
+from benchmarks.drills.boxes import BOTH, RELAYS, Mast
 
+SENSORS_SHARE = 0.15
 SHARE = 0.4
 """The share of boxes that are mounted otherwise than the shipped file says."""
 CLEAR_DEG = 6.0
 """The antenna stands at least this far inside its range at the start."""
+MCP3208 = {"adc": {"kind": "mcp3208"}}
+TURN_DEG = (10.0, 350.0)
+"""An AS5600 reads one turn: the range of its axis must end before the reading jumps."""
+AS5600 = {
+    "azimuth": {
+        "min_deg": TURN_DEG[0],
+        "max_deg": TURN_DEG[1],
+        "calibration": [[TURN_DEG[0] / 360.0, TURN_DEG[0]], [TURN_DEG[1] / 360.0, TURN_DEG[1]]],
+        "lowest_reading": 0.02,
+        "highest_reading": 0.98,
+        "sensor": {"kind": "as5600"},
+    },
+    "elevation": {"sensor": {"kind": "mpu6050", "forward": "-y", "up": "+z"}},
+}
+CHIPS = ("azimuth-as5600-gone", "azimuth-magnet-missing", "mpu6050-gone")
+CHIPS_SPORADIC = ("azimuth-as5600-noisy", "azimuth-as5600-gaps", "mpu6050-noisy", "mpu6050-gaps")
 
 
 def mounted(chance: random.Random, mast: Mast) -> Mast:
@@ -59,3 +77,27 @@ def _narrow(chance: random.Random, table: dict[str, Any], at_deg: float, top_deg
 
 def _range(table: dict[str, Any], top_deg: float) -> tuple[float, float]:
     return table.get("min_deg", 0.0), table.get("max_deg", top_deg)
+
+
+def sensed(chance: random.Random, mast: Mast) -> Mast:
+    """The same box with another converter, or with chips that need no converter."""
+    if mast.rotor.kind != "relay-pot" or mast.commissioning or chance.random() >= SENSORS_SHARE:
+        return mast
+    if chance.random() < 0.5:
+        rotor = replace(mast.rotor, shared_sporadic=())
+        return replace(mast, rotor=rotor, tables=_merged(mast.tables, MCP3208))
+    low_deg, high_deg = TURN_DEG
+    start_deg = min(max(mast.start_deg[0], low_deg + 1.0), high_deg - 1.0), min(mast.start_deg[1], 90.0)
+    rotor = replace(
+        mast.rotor, faults=(*RELAYS, "stop-early"), shared=CHIPS, sporadic=(), shared_sporadic=CHIPS_SPORADIC
+    )
+    tables = _merged(mast.tables, AS5600)
+    mount = tables.get("mount", {})
+    if any(low >= high_deg for low, _ in (sector["azimuth_deg"] for sector in mount.get("forbidden", []))):
+        tables["mount"] = {key: value for key, value in mount.items() if key != "forbidden"}
+    top_deg = high_deg, mast.top_deg[1]
+    return replace(mast, rotor=rotor, tables=tables, start_deg=start_deg, top_deg=top_deg, has_pots=False)
+
+
+def _merged(tables: dict[str, Any], more: dict[str, Any]) -> dict[str, Any]:
+    return tables | {name: {**tables.get(name, {}), **keys} for name, keys in more.items()}

@@ -126,11 +126,9 @@ class Orders(InForce):
                 until_s = event.at_s + event.number(1) + PANEL_S
                 self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
             case "jog":  # the press may shift the target in force, and later targets
-                axis, way = WAYS[event.text(0)]
-                self._anywhere(event, axis)
-                self._aims.shifts.press(axis, way)
-                if axis == "elevation" and self._aims.may_shift_over_top():
-                    self._anywhere(event, "azimuth")
+                self._aims.shifted = True
+                for axis in AXES:
+                    self._anywhere(event, axis)
 
     def _note_order(self, event: Event) -> None:
         match event.what:

@@ -1,6 +1,5 @@
 """Failures around the box: a program that is killed or ends again and again, a card that refuses or hangs, files that
-are changed under the box, a bus that hangs as the program begins, a page that hangs, a supply of the pots that reads
-wrong.
+are changed under the box, a bus that hangs as the program begins, a page that hangs.
 
 Drawn with a random stream of its own, so that the rest of the drill stays the same. Knows how often each failure
 happens. Does not judge.
@@ -12,11 +11,10 @@ import random
 
 from benchmarks.drills.boxes import BOTH, Mast
 from benchmarks.drills.card import HANGS, NAMES, REFUSES, REFUSES_LATER, WAYS, WORKS
-from benchmarks.drills.script import CLOCK, COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Event
-from rotator.assembly.adc import SUPPLY
+from benchmarks.drills.script import CLOCK, LINKS, PEOPLE, PROGRAM, WORLD, Event
 
-LOOPS, CARDS, FILES, CONFIGS, BUSES, PAGES = 0.1, 0.2, 0.06, 0.08, 0.04, 0.06
-"""The shares of drills with each of these failures; of the supply, among the boxes that measure it: all."""
+LOOPS, CARDS, FILES, BUSES, PAGES = 0.1, 0.2, 0.06, 0.04, 0.06
+"""The shares of drills with each of these failures."""
 HANGS_S = (1.0, 4.0, 10.0, 60.0, 300.0)
 
 
@@ -42,12 +40,8 @@ def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], fl
         for name in chance.sample(NAMES, chance.choice((1, 1, 2, len(NAMES)))):
             events.append(_at(chance.uniform(0.0, seconds), WORLD, "file", name, chance.choice(WAYS)))
         events.append(_at(chance.uniform(0.0, seconds), PROGRAM, chance.choice(("kill", "restart")), 2.0))
-    if mast.rotor.relays and "forbidden" not in mast.tables.get("mount", {}) and chance.random() < CONFIGS:
-        events += _configured_anew(chance, mast, seconds)
     if chance.random() < PAGES:
         events.append(_at(chance.uniform(0.0, seconds), CLOCK, "page-stalled", chance.choice((0.5, 1.5, 5.0, 20.0))))
-    if "reference_channel" in mast.tables.get("adc", {}):
-        events += _supply(chance, seconds)
     if chance.random() < BUSES:
         begins_s = chance.choice([0.0, *(event.at_s for event in events if event.who == PROGRAM)])
         events.append(_at(begins_s, CLOCK, "hung", chance.choice((1.0, 4.0, 8.0, 30.0))))
@@ -57,7 +51,7 @@ def draw_outages(seed: str, mast: Mast, seconds: float) -> tuple[list[Event], fl
 def _loop(chance: random.Random, mast: Mast, begins_s: float) -> tuple[list[Event], float]:
     """A program that repeats its order, an axis that an obstacle may hold, and a box that ends again and again."""
     what, every_s, count = chance.choice(("kill", "restart")), chance.uniform(4.0, 20.0), chance.randrange(4, 16)
-    axis, link = chance.randrange(2), chance.choice(COMMON_LINKS)
+    axis, link = chance.randrange(2), chance.choice(LINKS)
     aim_deg = [round(chance.uniform(0.2, 0.8) * top_deg) for top_deg in mast.top_deg]
     aim_deg[axis] = round(mast.top_deg[axis] * chance.choice((0.0, 0.1, 0.9, 1.0)))
     ends_s = begins_s + every_s * (count + 1)
@@ -87,36 +81,11 @@ def _while_it_hangs(chance: random.Random, at_s: float) -> list[Event]:
     if chance.random() < 0.7:
         events.append(_at(at_s, PROGRAM, chance.choice(("kill", "restart")), chance.choice((0.5, 2.0))))
         at_s += 2.5
-    link = chance.choice(COMMON_LINKS)
+    link = chance.choice(LINKS)
     for _ in range(chance.choice((0, 1, 2))):
         events.append(_at(at_s, link, "aim", float(chance.randrange(360)), float(chance.randrange(90))))
         at_s += chance.choice((0.5, 5.0))
     return events
-
-
-def _configured_anew(chance: random.Random, mast: Mast, seconds: float) -> list[Event]:
-    """A person changes the configuration while the box runs, and a new run of the program reads it."""
-    at_s, axis = chance.uniform(0.0, seconds), chance.randrange(2)
-    keys = [
-        ("tolerance_deg", chance.choice((1.0, 2.0, 5.0))),
-        ("speed_dps", mast.speed_dps[axis] * chance.choice((0.7, 1.4))),
-    ]
-    if mast.has_pots:
-        keys.append(("offset_deg", chance.choice((-10.0, -2.0, 3.0, 12.0))))
-    key, value = chance.choice(keys)
-    again = _at(
-        at_s + chance.uniform(0.1, 20.0), PROGRAM, chance.choice(("kill", "restart")), chance.choice((0.5, 5.0))
-    )
-    return [_at(at_s, WORLD, "config", BOTH[axis], key, value), again]
-
-
-def _supply(chance: random.Random, seconds: float) -> list[Event]:
-    """The input that measures the pots' supply reads wrong now and then, or for a moment."""
-    at_s, bad = chance.uniform(0.0, seconds), chance.choice(("zero", "full", "far", "near"))
-    if chance.random() < 0.5:
-        return [_at(at_s, WORLD, "burst", SUPPLY, chance.uniform(0.02, 0.3), bad)]
-    ends = [_at(at_s + chance.uniform(1.0, seconds), WORLD, "every", SUPPLY, 0.0, "zero")]
-    return [_at(at_s, WORLD, "every", SUPPLY, float(chance.randrange(4, 33)), bad), *ends]
 
 
 def _at(at_s: float, who: str, what: str, *args: float | str) -> Event:

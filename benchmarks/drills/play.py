@@ -14,7 +14,6 @@ import traceback
 from collections import deque
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from benchmarks.drills.accusations import Violation
 from benchmarks.drills.befall import WorldEvents
@@ -23,7 +22,7 @@ from benchmarks.drills.card import WORKS, Card
 from benchmarks.drills.configured import configured
 from benchmarks.drills.hearing import Hearing
 from benchmarks.drills.judges import Judges
-from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, reconfigure
+from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
 from benchmarks.drills.sectors import Sectors
 from benchmarks.drills.silence import Silence, Words
@@ -56,10 +55,6 @@ def play(drill: Drill) -> Outcome:
             return _Play(drill, Path(folder)).run()
         finally:
             log.handlers, log.level = handlers, level
-
-
-def _merged(tables: dict[str, Any], more: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    return tables | {name: {**tables.get(name, {}), **keys} for name, keys in more.items()}
 
 
 class _Play:
@@ -221,11 +216,6 @@ class _Play:
             self._orders.stops.spoil()
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)
-        if tables := self._world_events.new_tables:
-            self._drill = replace(self._drill, tables=_merged(self._drill.tables, tables))
-            self._config = configured(self._drill, self._card.folder)
-            reconfigure(self._config, self._world.axes, self._cases, self._orders)
-            self._world_events.new_tables = {}
         self._box = Box(self._drill, self._config, self._card, self._clock, self._box.world, begun_s=STARTED_S)
         self._hearing.begin_anew(self._box)
         self._card.program_begins()

@@ -73,14 +73,6 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
     )
 
 
-def reconfigure(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase, AxisCase], orders: Orders) -> None:
-    """The next run of the program has this configuration. What excused an axis before goes on."""
-    for case, now in zip(cases, axis_cases(config, truths), strict=True):
-        case.low_deg, case.high_deg, case.tolerance_deg = now.low_deg, now.high_deg, now.tolerance_deg
-        case.shift_deg, case.patience_s = now.shift_deg, max(case.patience_s, now.patience_s)
-    orders.rescale(*_scales(config))
-
-
 def _scales(config: Config) -> tuple[tuple[Ranges, Ranges], tuple[float, float]]:
     """The ranges of both axes and the park position, in true degrees."""
     shift, flips = build_offsets(config), config.mount.flip == "over-top"

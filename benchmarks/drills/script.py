@@ -10,9 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 FORMAT = "drill 1"
-COMMON_LINKS = ("gs232b", "gs232a", "rotctld", "rotctld-2", "easycomm2", "easycomm3", "pstrotator")
-OTHER_LINKS = ("md01", "prosistel-d", "dcu1", "gs232-f1efw")
-LINKS = (*COMMON_LINKS, *OTHER_LINKS)
+LINKS = ("gs232b", "gs232a", "rotctld", "rotctld-2", "easycomm2", "easycomm3", "pstrotator")
 PEOPLE = ("console", "console-2")
 PAGE = "page"
 """A person with a browser."""

@@ -5,9 +5,7 @@ Knows how each order is written. Does not know what the box makes of it.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from benchmarks.drills.script import OTHER_LINKS, PAGE, Event
+from benchmarks.drills.script import PAGE, Event
 
 PROTOCOLS = {
     "gs232b": "gs232b",
@@ -17,10 +15,8 @@ PROTOCOLS = {
     "easycomm2": "easycomm2",
     "easycomm3": "easycomm3",
     "pstrotator": "pstrotator",
-    **{name: name for name in OTHER_LINKS},
 }
 ROTCTLD_WAYS = {"cw": 16, "ccw": 8, "up": 2, "down": 4}
-MD01_WAYS = {"cw": 2, "ccw": 1, "up": 4, "down": 8}
 TABLE = "table "
 GS232_WAYS = {"cw": "R", "ccw": "L", "up": "U", "down": "D"}
 EASYCOMM_WAYS = {"cw": "MR", "ccw": "ML", "up": "MU", "down": "MD"}
@@ -39,25 +35,8 @@ def said(event: Event) -> bytes:
             return _line(_rotctld(event), b"\n")
         case "pstrotator":
             return _pstrotator(event).encode()
-        case "md01":
-            return _md01(event)
-        case "prosistel-d":
-            return _prosistel(event)
-        case "dcu1":
-            return _line(_dcu1(event), b";")
-        case "gs232-f1efw":
-            return _line(_f1efw(event), b"\r")
         case _:
             return _line(_easycomm(event), b"\n")
-
-
-def parts(event: Event) -> list[Event]:
-    """The same event, or what it is in a protocol that has no words for both axes in one order."""
-    axes = {"prosistel-d": 2, "dcu1": 1}.get(event.who)
-    if event.what != "aim" or axes is None:
-        return [event]
-    names = ("aim-azimuth", "aim-elevation")[:axes]
-    return [replace(event, what=name, args=(angle,)) for name, angle in zip(names, event.args, strict=False)]
 
 
 def _line(text: str, end: bytes) -> bytes:
@@ -139,54 +118,6 @@ def _pstrotator(event: Event) -> str:
             return "<PST><PARK>1</PARK></PST>"
         case "ask", ():
             return "<PST>AZ?</PST>"
-    return ""
-
-
-def _md01(event: Event) -> bytes:
-    match event.what, event.args:
-        case "aim", (azimuth_deg, elevation_deg):
-            tenths = [round(10.0 * (360.0 + float(angle))) for angle in (azimuth_deg, elevation_deg)]
-            return b"W" + b"".join(f"{each:04d}".encode() + b"\x0a" for each in tenths) + b"\x2f "
-        case "jog", (way,):
-            return b"W" + bytes([MD01_WAYS[str(way)]]) + bytes(9) + b"\x14 "
-        case "stop", ():
-            return b"W" + bytes(10) + b"\x0f "
-        case "ask", ():
-            return b"W" + bytes(10) + b"\x1f "
-    return b""
-
-
-def _prosistel(event: Event) -> bytes:
-    match event.what, event.args:
-        case "aim-azimuth", (angle_deg,):
-            return f"\x02AG{max(0, round(float(angle_deg)))}\r".encode()
-        case "aim-elevation", (angle_deg,):
-            return f"\x02EG{max(0, round(float(angle_deg)))}\r".encode()
-        case "stop", ():
-            return b"\x02AG999\r\x02EG999\r"
-        case "stop-axis", (axis,):
-            return b"\x02AG999\r" if axis == "azimuth" else b"\x02EG999\r"
-        case "ask", ():
-            return b"\x02A?\r"
-    return b""
-
-
-def _dcu1(event: Event) -> str:
-    match event.what, event.args:
-        case "aim-azimuth", (azimuth_deg,):
-            return f"AP1{round(float(azimuth_deg)):03d};AM1"
-        case "stop", ():
-            return "AS1"
-        case "ask", ():
-            return "AI1"
-    return ""
-
-
-def _f1efw(event: Event) -> str:
-    """At zero elevation or below it lets go of the antenna."""
-    match event.what, event.args:
-        case "aim", (azimuth_deg, elevation_deg):
-            return f"W{round(float(azimuth_deg)):03d} {max(1, round(float(elevation_deg))):03d}"
     return ""
 
 

@@ -77,6 +77,8 @@ class Story(Telling):
                 self._add(self._link, "park")
             case 6 if self._mast.rotor.kind == "relay-pulse":
                 self._add(self._person, "home", BOTH[self._axis])
+            case 13:
+                self._add(self._person, "storm")
             case 7:
                 what, args = (("aim-azimuth", aim_deg[:1]), ("aim-elevation", aim_deg[1:]))[self._axis]
                 self._add(self._link, what, *args)
@@ -144,7 +146,7 @@ class Story(Telling):
             return
         match self._chance.randrange(10):
             case 9:
-                self._add(self._person, "track", "off")
+                self._add(self._person, *self._chance.choice((("track", "off"), ("let-go",))))
             case 0 | 1:
                 self._add(self._link, "stop")
             case 2 | 3:

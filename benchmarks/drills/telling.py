@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import Mast
-from benchmarks.drills.script import CLOCK, COMMON_LINKS, PANEL, PEOPLE, Arg, Event
+from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, Arg, Event
 
 PAUSES_S = (0.0, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0)
 INSISTS_S = (20.0, 60.0, 90.0)
@@ -32,7 +32,7 @@ class Telling:
         self._chance = chance
         self._mast = mast
         self._trouble = trouble
-        self._link, self._other = chance.sample(COMMON_LINKS, 2)
+        self._link, self._other = chance.sample(LINKS, 2)
         self._person = chance.choice(PEOPLE)
         self._axis = chance.randrange(2)
         self._way = chance.randrange(2)

@@ -1,7 +1,7 @@
 """For each fault of the simulators: within how long the box must report it, and when the fault can be seen at all.
 
-Knows the name of each fault of each kind of rotor, without its axis: a rule, or the reason why no message is due. Does
-not listen to the box; `silence` does.
+Knows the name of each fault that is due a message, without its axis; of any other fault none is due: it is ridden out,
+or moves no motor. Does not listen to the box; `silence` does.
 """
 
 from __future__ import annotations
@@ -116,33 +116,6 @@ SEEN: Mapping[str, Rule] = {
     "card-hangs": Rule(Shows.AT_ONCE, shared=True),
     "every": BAD,
 }
-RIDDEN_OUT = "one moment, that is ridden out"
-BY_ITSELF = "the box puts it right with its next order"
-NO_MOTION = "no part of what moves the antenna"
-ADAPTER = "the drills speak to the controllers without an adapter's lines"
-UNTOLD: Mapping[str, str] = {
-    "pot-jumps": RIDDEN_OUT,
-    "pot-drifts": "no reading shows a drift: the angle is wrong by it, and nothing else",
-    "motor-slow": "it arrives later; a motor that is on for longer than the travel takes is reported",
-    "pulses-missed": "reported as a lost count, which may take five closures",
-    "pulses-doubled": "a contact cannot close again so soon: the second closure is not counted",
-    "switch-open": "a broken wire reads as a reached limit: reported when its direction is ordered",
-    "chip-dips": BY_ITSELF,
-    "board-dips": BY_ITSELF,
-    "board-gaps": "over before a servo moves on",
-    "shaken": "a gust shakes the board as much",
-    "steel-near": "a compass is asked by a person, who sees how it scatters",
-    "bus-hung": "in the drills the reading thread hangs instead",
-    "adapter-deaf": ADAPTER,
-    "adapter-unplugged": ADAPTER,
-    "lines-dropped": ADAPTER,
-    "lines-garbled": ADAPTER,
-    "lines-late": ADAPTER,
-    **{f"{part}-{how}": NO_MOTION for part in ("lcd", "compass") for how in ("gone", "noisy", "gaps")},
-}
-"""For each fault without a message, the reason: the fault cannot be seen, or the part moves no motor."""
-PANEL = "panel-"
-"""A fault of a panel moves no motor: the tests of the panel judge its messages."""
 
 
 def plain(name: str) -> str:

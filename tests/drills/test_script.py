@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import benchmarks.drills
-from benchmarks.drills import boxes, unusual
+from benchmarks.drills import boxes, mounts
 from benchmarks.drills.boxes import BOTH, ROTORS, Rotor
 from benchmarks.drills.campaign import verdict
 from benchmarks.drills.configured import configured
@@ -75,11 +75,6 @@ def test_every_fault_that_is_drawn_is_one_of_the_simulator(rotor: Rotor) -> None
         ("page", "hold", ("ccw",), b"hold ccw\n"),
         ("page", "relays-checked", ("azimuth",), b"relays-checked azimuth\n"),
         ("rotctld", "list", (1.0, 2.0), b""),
-        ("md01", "aim", (235.0, 25.0), b"W5950\x0a3850\x0a\x2f "),
-        ("md01", "jog", ("up",), b"W\x04\0\0\0\0\0\0\0\0\0\x14 "),
-        ("prosistel-d", "stop", (), b"\x02AG999\r\x02EG999\r"),
-        ("dcu1", "aim-azimuth", (5.0,), b"AP1005;AM1;"),
-        ("gs232-f1efw", "aim", (5.0, -3.0), b"W005 001\r"),
         (
             "console",
             "track",
@@ -99,8 +94,7 @@ def test_every_box_that_is_drawn_can_be_configured(
     rotor: Rotor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also the unusual ones, which are drawn far more often here."""
-    for share in ("SENSORS_SHARE", "SECTORS_SHARE", "LINKS_SHARE", "TABLES_SHARE", "HOURS_SHARE"):
-        monkeypatch.setattr(unusual, share, 0.7)
+    monkeypatch.setattr(mounts, "SENSORS_SHARE", 0.7)
     monkeypatch.setattr(boxes, "CHIMNEY_SHARE", 0.7)
     for number in range(80):
         configured(draw(f"3.{number}", rotor.kind), tmp_path)
