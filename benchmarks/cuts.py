@@ -8,14 +8,15 @@ count on the file was wrong, and what eight hours of such passes on each day wri
 from __future__ import annotations
 
 import random
-import sys
 import tempfile
 import tomllib
+from itertools import islice
 from pathlib import Path
 
 import tomlkit
 
-from benchmarks.new_passes import drawn
+from benchmarks.numbers import numbers
+from benchmarks.zenith import drawn
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
 from rotator.assembly.settings import build_controller
@@ -31,7 +32,7 @@ from rotator.store.counts import CountsFile, Standing
 from rotator.store.whole import BLOCK
 
 PASSES, CUTS = 6, 100
-HOURS_A_DAY = 8.0
+HOURS_A_DAY, LEAST_DEG = 8.0, 10.0
 SPACING_DEG = 5.0
 """A count that is further off than this would be an index off."""
 
@@ -89,10 +90,10 @@ def main(count: int, seed: int) -> None:
     lost = wrong = writes = 0
     seconds = 0.0
     with tempfile.TemporaryDirectory() as folder:
-        for each in drawn(count, seed, 10.0):
-            found = flown(each, Path(folder), dice)
+        for each in islice(drawn(random.Random(seed), LEAST_DEG), count):
+            found = flown(each.flown, Path(folder), dice)
             lost, wrong, writes = lost + found[0], wrong + found[1], writes + found[2]
-            seconds += each.end_s
+            seconds += each.flown.end_s
     per_s = writes / seconds
     year_s = HOURS_A_DAY * 3600 * 365
     print(f"seed {seed}: {count} passes, {seconds / 60:.0f} minutes, {CUTS} cuts in each")
@@ -104,5 +105,4 @@ def main(count: int, seed: int) -> None:
 
 
 if __name__ == "__main__":
-    numbers = [int(text) for text in sys.argv[1:]]
-    main(numbers[0] if numbers else PASSES, numbers[1] if len(numbers) > 1 else random.SystemRandom().randrange(10**6))
+    main(*numbers(__doc__, passes=PASSES, seed=random.SystemRandom().randrange(10**6)))

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
+from itertools import islice
 
 from benchmarks.recognition import catalogue
 from rotator.config.load import parse
@@ -37,14 +38,15 @@ class Overhead:
     culmination_deg: float
 
 
-def overhead(dice: random.Random) -> Iterator[Overhead]:
+def drawn(dice: random.Random, least_deg: float = LEAST_DEG) -> Iterator[Overhead]:
+    """Passes at random stations, that culminate there or higher."""
     elements = catalogue(dice, SATELLITES)
     while True:
         site = Site(math.degrees(math.asin(dice.uniform(-0.9, 0.9))), dice.uniform(-180, 180))
         satellite = Satellite(dice.choice(elements), site)
         from_s = satellite.elements.epoch_utc_s
         try:
-            found = next(passes(satellite, from_s, from_s + WITHIN_S, LEAST_DEG), None)
+            found = next(passes(satellite, from_s, from_s + WITHIN_S, least_deg), None)
         except NotThere:
             continue
         if found is None or found.aos_s is None or found.los_s is None or found.los_s - found.aos_s > 1500:
@@ -66,8 +68,7 @@ def main() -> None:
     parser.add_argument("seed", type=int, nargs="?", default=SEED)
     parser.add_argument("--each", action="store_true")
     asked = parser.parse_args()
-    drawn = overhead(random.Random(asked.seed))
-    wanted = [next(drawn) for _ in range(asked.passes)]
+    wanted = list(islice(drawn(random.Random(asked.seed)), asked.passes))
     with ProcessPoolExecutor() as pool:
         for via in ("track", "gs232"):
             flown = []
