@@ -171,15 +171,6 @@ def test_from_install_sh_to_the_package_and_back(installed: Root, debs: Debs) ->
     assert ones_own(installed) == before, "it is install.sh's by now"
 
 
-def test_a_service_that_was_switched_off_stays_off(installed: Root, debs: Debs) -> None:
-    give(installed, debs)
-    installed.run("systemctl", "disable", "rotator.service").check()
-    apt(installed, "install", TODAY).check()
-    assert installed.run("systemctl", "is-enabled", "rotator.service").text == "disabled\n"
-    apt(installed, "install", LATER).check()
-    assert installed.run("systemctl", "is-enabled", "rotator.service").text == "disabled\n"
-
-
 @pytest.mark.parametrize(
     ("beforehand", "said"),
     [
@@ -193,22 +184,6 @@ def test_it_refuses_what_it_must_not_touch(empty: Root, beforehand: str, said: s
     assert refused.code != 0
     assert f"gs232-rotator: {said}" in refused.text
     assert not empty.at("/usr/lib/gs232-rotator").exists()
-
-
-def test_the_com_port_of_the_pc_goes_first(packed: Root) -> None:
-    packed.run("touch", "/etc/systemd/system/rotator-usb-serial.service").check()
-    refused = apt(packed, "remove", "gs232-rotator")
-    assert refused.code != 0
-    assert "first let the Pi be no COM port any more: sudo rotator setup usb-serial --undo" in refused.text
-    assert packed.run("rotator", "--version").code == 0
-
-
-def test_debians_spidev_is_used_where_it_is_installed(packed: Root) -> None:
-    python = "/usr/lib/gs232-rotator/bin/python"
-    assert packed.run(python, "-c", "import spidev").code != 0
-    packed.run(*APT, "update").check()
-    packed.run(*APT, "install", "python3-spidev").check()
-    packed.run(python, "-c", "import spidev; spidev.SpiDev").check()
 
 
 def test_the_list_of_what_is_in_it_has_versions_and_licences(packed: Root) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,7 +13,7 @@ from serial.tools import list_ports
 
 from rotator.setup.gadget import Identity, down, up
 from rotator.setup.plan import SetupError
-from tests.kernel.bench.usb_serial import CONTROLLER, GADGETS, UsbSerialCable
+from tests.kernel.bench.usb_serial import CONTROLLER, GADGETS
 from tests.kernel.bench.waiting import PATIENCE_S, until
 from tests.kernel.test_usb_serial import POSITION, Box
 
@@ -81,37 +80,6 @@ def test_question_and_answer() -> None:
             assert port.read(len(POSITION)) == POSITION
     finally:
         box.close()
-
-
-def test_up_twice_is_no_new_plug_for_the_pc() -> None:
-    up(CONFIGFS, CONTROLLERS, IDENTITY)
-    number = Path("/sys/class/tty", Path(pc()).name, "device/../devnum")
-    before = number.read_text()
-    assert up(CONFIGFS, CONTROLLERS, IDENTITY) == CONTROLLER
-    assert number.read_text() == before
-
-
-@pytest.mark.parametrize("steps", range(1, 6))
-def test_a_half_built_one_is_no_obstacle(steps: int) -> None:
-    for folder in ("", "strings/0x409", "functions/acm.usb0", "configs/c.1", "configs/c.1/strings/0x409")[:steps]:
-        (GADGET / folder).mkdir()
-    up(CONFIGFS, CONTROLLERS, IDENTITY)
-    assert os.access(pc(), os.F_OK)
-
-
-def test_built_but_not_tied() -> None:
-    up(CONFIGFS, CONTROLLERS, IDENTITY)
-    (GADGET / "UDC").write_text("\n")
-    up(CONFIGFS, CONTROLLERS, IDENTITY)
-    assert os.access(pc(), os.F_OK)
-
-
-def test_another_device_keeps_the_controller() -> None:
-    with UsbSerialCable() as cable:
-        with pytest.raises(SetupError, match=r"dummy_udc\.0 is taken by bench"):
-            up(CONFIGFS, CONTROLLERS, IDENTITY)
-        assert ports() == [cable.pc]
-        assert not GADGET.exists()
 
 
 def test_a_kernel_that_refuses_leaves_nothing_behind(tmp_path: Path) -> None:

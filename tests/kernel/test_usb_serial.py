@@ -149,13 +149,6 @@ def test_question_and_answer_without_an_echo(cable: UsbSerialCable, terminal_lik
         assert port.in_waiting == 0
 
 
-def test_every_byte_arrives_as_it_was_sent(cable: UsbSerialCable, box: Box) -> None:
-    every = bytes(range(256))
-    with pc(cable.pc) as port:
-        port.write(every + b"\r")
-        until(lambda: box.sessions[-1].seen == every + b"\r", "all bytes")
-
-
 def test_the_cable_pulled_and_put_back(cable: UsbSerialCable, box: Box, caplog: pytest.LogCaptureFixture) -> None:
     for count in range(1, 4):
         with pc(cable.pc) as port:
@@ -190,11 +183,3 @@ def _asked(port: serial.Serial) -> bytes:
     port.timeout = 0.2
     answer: bytes = port.read(65536)
     return answer
-
-
-def test_a_pc_that_comes_and_goes_is_always_served(cable: UsbSerialCable, box: Box) -> None:
-    for _ in range(5):
-        with pc(cable.pc) as port:
-            port.write(b"C2\r")
-            assert port.read(len(POSITION)) == POSITION
-    assert len(box.sessions) == 1, "the PC closing its port is no loss of the cable"

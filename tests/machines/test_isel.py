@@ -6,7 +6,6 @@ Also a day with power cuts: the controllers forget their turns, and a person say
 from __future__ import annotations
 
 import random
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -20,9 +19,6 @@ from tests.machines.shack import Shack, fly
 
 NEAR_DEG = 0.05
 """The rotctld's two decimals, and what a moteus leaves."""
-SLACK_DEG = 0.2
-"""How far the antenna may pass the other rotor's way, which is known to the hundredth of a second only."""
-SEGMENT_S = 8.0
 RANGE_DEG = (0.0, 450.0), (0.0, 90.0)
 
 
@@ -141,92 +137,6 @@ def test_after_power_cuts_nobody_is_asked(shack: Callable[..., Shack], chance: r
         machine.cut()
         machine.power_cut()
         assert "position unknown" not in machine.log()
-
-
-def test_geared_and_with_a_compass_nobody_is_asked_either(shack: Callable[..., Shack], chance: random.Random) -> None:
-    """Gravity tells the elevation, the compass the azimuth: the boom level enough, off the overlap and the ends."""
-    compass = {"compass": {"kind": "bno055", "at_start": True}, "mount": {"declination_deg": 4.0}}
-    gears = {"moteus": {axis: {"geared": True} for axis in ("azimuth", "elevation")}}
-    machine = shack("isel", compass | gears)
-    place = chance.uniform(15.0, 345.0), chance.uniform(0.0, 25.0)
-    machine.turned_by_hand(*place)
-    machine.start()
-    machine.until(lambda _: "compass: azimuth stands at" in machine.log(), "the compass tells it")
-    assert machine.stands() == pytest.approx(place, abs=0.01), "no motion before an order"
-    target = chance.uniform(15.0, 345.0), chance.uniform(0.0, 90.0)
-    give_up_s, box = time.monotonic() + 10.0, Gpredict(machine.ports["rotctld"])
-    while time.monotonic() < give_up_s and "position unknown" in machine.rotator("where"):
-        time.sleep(0.2)
-    box.send(*target)
-    machine.arrives(*target, NEAR_DEG)
-    box.close()
-    machine.stop()
-    assert own_faults(machine) == []
-
-
-def test_behind_the_dummy_rotor(
-    shack: Callable[..., Shack], chance: random.Random, need_program: Callable[[str, str], str]
-) -> None:
-    """Steps, slews and stops of the other rotor, also through the zenith: the antenna passes no corner, and rests."""
-    rotctld, port = need_program("rotctld", "libhamlib-utils"), free_port()
-    machine = shack("isel", keys(port))
-    machine.turned_by_hand(0.0, 0.0)
-    with dummy_rotor(rotctld, port) as gpredict:
-        machine.start()
-        confirm(machine, (0.0, 0.0))
-        follow_for(SEGMENT_S, machine, gpredict, chance)
-        machine.stop()
-    assert own_faults(machine) == []
-
-
-def follow_for(seconds: float, machine: Shack, gpredict: Gpredict, chance: random.Random) -> float:
-    """Order the dummy about, and watch the antenna. Returns how far it went beyond the dummy's way, in degrees."""
-    end_s, beyond_deg = time.monotonic() + seconds, 0.0
-    while time.monotonic() < end_s:
-        began = gpredict.read()
-        match chance.choice(["step", "slew", "stop", "zenith", "pass"]):
-            case "step":
-                gpredict.send(began[0] + chance.uniform(0.05, 2.0), min(began[1] + chance.uniform(0, 2.0), 90.0))
-            case "zenith":
-                gpredict.send(chance.uniform(0, 359), 90.0)
-            case "pass":
-                for second in range(5):
-                    gpredict.send((began[0] + 0.7 * second) % 359, min(began[1] + 0.5 * second, 90.0))
-                    beyond_deg = max(beyond_deg, _watch(machine, gpredict, began, 1.0))
-            case kind:
-                gpredict.send(chance.uniform(0, 359), chance.uniform(0, 90))
-                if kind == "stop":
-                    beyond_deg = max(beyond_deg, _watch(machine, gpredict, began, chance.uniform(0.3, 3.0)))
-                    gpredict.stop()
-        beyond_deg = max(beyond_deg, _watch(machine, gpredict, began, chance.uniform(0.5, 4.0)))
-    rest = _at_rest(gpredict)
-    machine.arrives(*rest, NEAR_DEG)
-    return beyond_deg
-
-
-def _watch(machine: Shack, gpredict: Gpredict, began: tuple[float, float], seconds: float) -> float:
-    """How far the antenna goes beyond where the dummy has been since `began`. Fails beyond SLACK_DEG."""
-    end_s, beyond_deg = time.monotonic() + seconds, 0.0
-    low, high = list(began), list(began)
-    antenna = machine.world().antenna_deg
-    for axis in range(2):  # the antenna may still be on its way
-        low[axis], high[axis] = min(low[axis], antenna[axis]), max(high[axis], antenna[axis])
-    while time.monotonic() < end_s:
-        antenna = machine.world().antenna_deg  # before the dummy is read: it is there, or was
-        for axis, at in enumerate(gpredict.read()):
-            low[axis], high[axis] = min(low[axis], at), max(high[axis], at)
-            beyond_deg = max(beyond_deg, low[axis] - antenna[axis], antenna[axis] - high[axis])
-        assert beyond_deg <= SLACK_DEG, f"{beyond_deg:.2f}° beyond: {antenna}, {low} to {high}\n{machine.log()}"
-        time.sleep(0.02)
-    return beyond_deg
-
-
-def _at_rest(gpredict: Gpredict) -> tuple[float, float]:
-    before = None
-    while before != (now := gpredict.read()):
-        before = now
-        time.sleep(0.3)
-    return now
 
 
 def _turn(near: tuple[float, float], azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:

@@ -254,21 +254,3 @@ def test_a_day_at_the_panel(shack: Callable[..., Shack], chance: random.Random) 
     obeys(machine, pc, somewhere(chance))
     pc.close()
     ended_well(machine)
-
-
-def test_turned_by_hand_while_it_was_off(shack: Callable[..., Shack], chance: random.Random) -> None:
-    """A count cannot show that; homing finds it, wherever the shaft was left."""
-    machine, pc = new(shack, anywhere(chance))
-    homed(machine)
-    obeys(machine, pc, somewhere(chance))
-    until_kept(machine)
-    pc.close()
-    ended_well(machine)
-    machine.power_cut()
-    machine.turned_by_hand(*anywhere(chance))
-    begin(machine)
-    homed(machine)
-    pc = Terminal(machine.ptys[0])
-    obeys(machine, pc, somewhere(chance))
-    pc.close()
-    ended_well(machine)

@@ -64,20 +64,6 @@ def test_what_a_program_sends_is_seen_byte_by_byte(start: Start, visit: Visit) -
     page.locator(".bytes .came", has_text="C2\\r").wait_for()
 
 
-def test_a_pause_holds_the_picture_and_then_shows_what_came_meanwhile(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    pair(page)
-    page.get_by_role("link", name="Help").click()
-    page.get_by_role("link", name="Wires").click()
-    send(station, b"C2\r")
-    page.locator(".bytes .went", has_text="AZ=").wait_for()
-    page.get_by_role("button", name="Pause").click()
-    send(station, b"B\r")
-    page.get_by_role("button", name="Go on: ").click()
-    page.locator(".bytes .came", has_text="B\\r").wait_for()
-
-
 def test_a_backup_is_saved_and_restored_with_one_question(start: Start, visit: Visit, tmp_path: Path) -> None:
     station = start()
     page = visit(station)

@@ -220,20 +220,6 @@ def test_a_held_button_whose_view_is_left_is_let_go(start: Start, visit: Visit, 
     assert sent[-1] == '{"let_go":true}'
 
 
-def test_stop_and_a_second_button_put_out_the_light_of_the_one_that_is_held(start: Start, visit: Visit) -> None:
-    page = visit(start())
-    pair(page)
-    page.get_by_role("button", name="Hold to turn CW", exact=True).focus()
-    page.keyboard.down("Space")
-    page.locator(".jog.cw.held").wait_for()
-    hold(page, "Up")
-    page.locator(".jog.up.held").wait_for()
-    assert page.locator(".jog.held").count() == 1
-    page.keyboard.press("Escape")
-    page.locator(".jog.held").wait_for(state="detached")
-    headline(page, "STOPPED by test")
-
-
 def test_passes_that_are_still_computed_are_asked_for_again(start: Start, visit: Visit) -> None:
     page = visit(start())
     rises, sets = datetime.now(UTC) + timedelta(hours=1), datetime.now(UTC) + timedelta(hours=2)

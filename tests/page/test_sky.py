@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import json
-import re
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks.sky_now import LIKE, as_json, rises_in, satellite, sets_in
+from benchmarks.sky_now import as_json, rises_in, satellite, sets_in
 from rotator.orbits.earth import Site
 from rotator.orbits.locator import from_locator
 from tests.page.conftest import Station, pair, violations
 from tests.page.test_dashboard import waits_for
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page, WebSocketRoute
+    from playwright.sync_api import Page
 
 Start = Callable[..., Station]
 Visit = Callable[..., "Page"]
@@ -66,29 +64,6 @@ def test_a_press_tracks_a_satellite_and_its_pass_leaves_a_picture(start: Start, 
     assert "rms off" in text
 
 
-def test_a_request_that_is_refused_is_told_as_that_while_the_tracking_goes_on(
-    start: Start, visit: Visit, tmp_path: Path
-) -> None:
-    """The satellite SOUTH stays near the equator. The second look is between two flights: the status has no target."""
-    station = start(place(tmp_path))
-    south = replace(LIKE, name="SOUTH", catalogue_number=90_004, epoch_utc_s=time.time(), inclination_deg=5.0)
-    (tmp_path / "made.json").write_text(as_json([south]), encoding="utf-8")
-    page = visit(station)
-    pair(page)
-    page.get_by_role("link", name="Sky").click()
-    page.get_by_role("button", name="Track Moon").first.click()
-    page.get_by_text("Tracks Moon").wait_for()
-    page.locator("form.track input").fill("SOUTH")
-    page.locator("form.track button[type=submit]").click()
-    page.get_by_text("Not tracked: SOUTH does not rise").wait_for(timeout=COMPUTED_MS)
-    page.get_by_text("Tracks Moon").wait_for()
-    page.route_web_socket(re.compile("/api/"), without_target)
-    page.reload()
-    page.get_by_text("The box goes on with what it tracked.").wait_for()
-    page.get_by_text("Not tracked: SOUTH does not rise").wait_for()
-    assert page.get_by_text("Tracking has").count() == 0
-
-
 def test_a_table_of_directions_is_sent_and_tracked_and_a_mistake_in_it_is_told(
     start: Start, visit: Visit, tmp_path: Path
 ) -> None:
@@ -104,12 +79,6 @@ def test_a_table_of_directions_is_sent_and_tracked_and_a_mistake_in_it_is_told(
     page.get_by_label("Track a table of directions").set_input_files(good)
     page.get_by_text("Tracks good").wait_for(timeout=COMPUTED_MS)
     assert violations(page) == []
-
-
-def without_target(route: WebSocketRoute) -> None:
-    """What the box sends, but for the target that it tracks."""
-    box = route.connect_to_server()
-    box.on_message(lambda text: route.send(re.sub(r'"tracks": ?\{[^{}]*\}', '"tracks": null', str(text))))
 
 
 def names(page: Page) -> list[str]:

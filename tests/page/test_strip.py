@@ -74,26 +74,6 @@ def test_why_a_held_button_turns_nothing_is_in_sight(start: Start, visit: Visit)
     assert "page#" not in said.inner_text()
 
 
-def test_a_direction_pressed_on_the_sky_is_one_press_from_there(start: Start, visit: Visit) -> None:
-    page = visit(start(), **PHONE)
-    pair(page)
-    sky = page.locator(".skyview svg")
-    sky.click(position={"x": 200, "y": 120})
-    there = page.get_by_role("button", name="Turn to")
-    there.wait_for()
-    there.click()
-    page.locator(".angles .to", has_text="to ").first.wait_for()
-
-
-def test_where_no_place_is_set_the_page_leads_to_the_step_that_sets_it(start: Start, visit: Visit) -> None:
-    page = visit(start(), **PHONE)
-    pair(page)
-    page.get_by_role("link", name="Sky").click()
-    page.get_by_text("The box does not know where it stands").wait_for()
-    page.get_by_role("link", name="Setup, step 8").first.click()
-    page.locator("summary", has_text="8. Place and time").wait_for()
-
-
 def test_stop_stays_in_sight_on_a_page_that_fingers_have_spread(start: Start, visit: Visit) -> None:
     """As it does above the keyboard of a phone: that, too, leaves less of the page to be seen."""
     page = visit(start(), **PHONE)

@@ -7,26 +7,17 @@ from typing import Any
 
 import pytest
 
-from rotator.exchange.orders import Aim, Release, Stop
-from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
+from rotator.exchange.orders import Aim, Stop
+from tests.rotors.rig import AZ, EL, KINDS, Box
 
 ORBIT = next(kind for kind in KINDS if kind.profile == "orbit360")
 POTS: dict[str, Any] = {"azimuth": {"sensor": {"kind": "pot"}}, "elevation": {"sensor": {"kind": "pot"}}}
-MIDDLE = (180.0, 90.0)
-"""Where a chip without a step has its box."""
 
 
 @pytest.fixture
 def box() -> Iterator[Box]:
     """As it is sold to builders: with the relay in the boxes' supply."""
     box = Box(ORBIT, **POTS)
-    yield box
-    box.close()
-
-
-@pytest.fixture
-def bare() -> Iterator[Box]:
-    box = Box(ORBIT, MIDDLE, **POTS, digipot={"enable": None})
     yield box
     box.close()
 
@@ -54,21 +45,3 @@ def test_with_the_relay_it_is_cut_off_after_4_degrees_and_stays_so_until_a_perso
     box.order(Aim(40.0, 60.0))
     box.run(10.0)
     assert (box.boom_deg(AZ), box.boom_deg(EL)) == pytest.approx(stood_deg, abs=0.1)
-
-
-def test_after_the_mend_and_an_acknowledgement_it_goes_on(box: Box) -> None:
-    lost_in_mid_move(box)
-    box.run(10.0)
-    box.world.clear("azimuth-select-broken")
-    box.order(Release(), by=PERSON)
-    box.run(1.0)
-    assert not box.status.faults
-    assert box.arrives(150.0, 40.0)
-
-
-def test_without_the_relay_it_says_at_once_what_a_person_must_do(bare: Box) -> None:
-    stopped_deg = lost_in_mid_move(bare)
-    bare.until(lambda: bool(bare.status.faults))
-    assert abs(bare.boom_deg(AZ) - stopped_deg) < 15.0
-    (fault,) = bare.status.faults
-    assert (fault.name, fault.axis, fault.act_now) == ("turning with no relay on", AZ, "CUT MOTOR POWER!")

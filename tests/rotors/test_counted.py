@@ -15,7 +15,6 @@ from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
 from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.counts_writer import CountsWriter, at_once
-from rotator.runtime.loop import COAST_S
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
 from rotator.store.hanging import HANGS_S
 from tests.hw.sensors.pulse_rig import AZ, CYCLE_S, PulseRig
@@ -119,30 +118,6 @@ def test_the_sensor_thread_writes_no_rest_between_the_mark_and_the_relay(path: P
     assert mast.on_disk().standing is Standing.LOST, "moving"
 
 
-def test_a_stop_soon_after_a_short_move_keeps_the_count(path: Path) -> None:
-    """It rests again 1.2 s after its motor was let start."""
-    mast = Mast(path, KNOWN)
-    mast.run(PLUS, 0.2)
-    mast.wait(1.0)
-    mast.rotor.close()
-    assert mast.on_disk().standing is Standing.KNOWN
-
-
-def test_it_coasts_until_its_angle_at_rest_is_told(path: Path) -> None:
-    """The end of the program waits for that: the next run goes on from the count."""
-    mast = Mast(path, KNOWN)
-    mast.wait(1.0)
-    assert not mast.rotor.coasts()
-    mast.run(PLUS, 3.0)
-    assert mast.rotor.coasts()
-    waits_from_s = mast.rig.clock()
-    while mast.rotor.coasts():
-        mast.wait(CYCLE_S)
-    assert 0.1 < mast.rig.clock() - waits_from_s < COAST_S
-    mast.rotor.close()
-    assert mast.on_disk().angle_deg == pytest.approx(mast.rig.shaft_deg, abs=2.0)
-
-
 def test_a_card_that_hangs_is_told_while_the_motor_waits_for_it(path: Path) -> None:
     mast, jobs = Mast(path, KNOWN), list[Callable[[], None]]()
     mast.counts_writer = CountsWriter(CountsFile(path, CAMS), jobs.append)
@@ -163,22 +138,6 @@ def test_a_card_that_hangs_is_told_while_the_motor_waits_for_it(path: Path) -> N
         job()
     assert mast.rotor.condition(AZ).fault is None
     assert mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2)) is PLUS
-
-
-def test_a_rest_is_kept_and_the_next_run_goes_on_from_it(path: Path) -> None:
-    mast = Mast(path, KNOWN)
-    mast.run(PLUS, 3.0)
-    mast.wait(30.0)
-    kept = mast.on_disk()
-    assert kept.standing is Standing.KNOWN
-    assert kept.angle_deg == pytest.approx(mast.rig.shaft_deg, abs=0.3)
-
-
-def test_closed_in_mid_coast_it_is_not_taken_for_a_rest(path: Path) -> None:
-    mast = Mast(path, KNOWN)
-    mast.run(PLUS, 3.0)
-    mast.rotor.close()
-    assert mast.on_disk().standing is Standing.LOST
 
 
 # --- trouble

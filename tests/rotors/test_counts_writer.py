@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.rotors.counts_writer import COUNTS_THREAD, CountsWriter, at_once
+from rotator.rotors.counts_writer import COUNTS_THREAD, CountsWriter
 from rotator.store.counts import CountsFile, Place, Standing
 from rotator.store.hanging import writes
 from tests.refusing import hanging, wait_until
@@ -108,16 +108,6 @@ def test_a_file_that_cannot_be_written_refuses_and_says_why(path: Path, disk: Sl
     assert counts_writer.trouble(AZ) == ""
 
 
-def test_what_is_lost_anyway_may_move_whatever_the_disk_does(path: Path) -> None:
-    file = known(path)
-    counts_writer = CountsWriter(file, at_once)
-    counts_writer.lost(AZ)
-    assert standing(path) is Standing.LOST
-    path.unlink()
-    path.mkdir()
-    assert counts_writer.may_start(AZ)
-
-
 def test_in_real_time_a_thread_of_its_own_writes_and_ends(path: Path) -> None:
     counts_writer = CountsWriter(known(path))
     give_up = threading.Event()
@@ -129,20 +119,6 @@ def test_in_real_time_a_thread_of_its_own_writes_and_ends(path: Path) -> None:
     counts_writer.rests(AZ, 130.0)
     counts_writer.close()
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 130.0), "close writes what stands"
-    assert not [thread for thread in threading.enumerate() if thread.name.startswith(COUNTS_THREAD)]
-
-
-def test_closed_it_writes_no_more_and_lets_nothing_start(path: Path) -> None:
-    """A sensor thread that hung on its bus may come back when the rotor has been closed."""
-    counts_writer = CountsWriter(known(path))
-    counts_writer.close()
-    counts_writer.close()
-    assert not counts_writer.may_start(AZ)
-    counts_writer.rests(AZ, 130.0)
-    counts_writer.lost(AZ)
-    counts_writer.homed(AZ, 130.0)
-    counts_writer.close()
-    assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 100.0)
     assert not [thread for thread in threading.enumerate() if thread.name.startswith(COUNTS_THREAD)]
 
 

@@ -115,16 +115,3 @@ def test_the_antenna_rests_exactly_where_the_other_rotor_rests(bench: Bench) -> 
         assert (bench.box.boom_deg(AZ), bench.box.boom_deg(EL)) == pytest.approx(place, abs=0.002)
     assert not bench.box.status.faults
     assert bench.beyond_deg <= BEYOND_DEG["isel"]
-
-
-@pytest.mark.parametrize("bench", [ISEL], indirect=True)
-@pytest.mark.parametrize("silent_s", [0.05, 0.2, 1.0])
-def test_a_silence_at_the_end_of_a_slew_leaves_the_antenna_where_it_was_sent(bench: Bench, silent_s: float) -> None:
-    bench.dummy.to_deg = [120.0, 40.0]
-    bench.follow(4.8)
-    bench.box.world.inject("azimuth-silent")
-    bench.follow(silent_s)
-    bench.box.world.clear("azimuth-silent")
-    bench.follow(20.0)
-    assert bench.box.boom_deg(AZ) == pytest.approx(120.0, abs=0.01)
-    assert not bench.box.status.faults

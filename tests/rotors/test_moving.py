@@ -48,15 +48,6 @@ def test_nothing_moves_before_an_order(kind: Kind, new_box: NewBox) -> None:
 # --- aims
 
 
-def test_it_goes_where_it_is_aimed_and_stands_there(box: Box) -> None:
-    box.order(Aim(120.0, 60.0))
-    box.until_it_stands()
-    assert arrived(box, 120.0, 60.0)
-    stood_deg = box.world.shafts()
-    box.run(8.0)
-    assert box.world.shafts() == pytest.approx(stood_deg, abs=box.kind.trembles_deg)
-
-
 @EACH_AXIS
 @pytest.mark.parametrize("elevation_deg", [20.0, 65.0])
 @pytest.mark.parametrize("beside_deg", [3.0])
@@ -102,17 +93,6 @@ def test_a_nudge_of_a_stream_shifts_what_follows(box: Box, axis: Axis) -> None:
     before_deg = off_deg(0, 60)
     box.order(Nudge(axis, 5.0), by=PANEL)
     assert off_deg(60, 90) - before_deg == pytest.approx(5.0, abs=1.5)
-
-
-def test_there_and_back_and_the_other_way_in_mid_move(box: Box) -> None:
-    box.order(Aim(120.0, 60.0))
-    box.until_it_stands()
-    box.order(Aim(150.0, 80.0))
-    box.run(1.5)
-    box.order(Aim(60.0, 10.0))
-    box.until_it_stands()
-    assert arrived(box, 60.0, 10.0)
-    assert box.status.faults == ()
 
 
 def test_a_target_that_moves_is_followed(box: Box) -> None:

@@ -87,17 +87,6 @@ async def terminal(path: Path) -> AsyncIterator[Line]:
         transport.close()
 
 
-@asynccontextmanager
-async def watching(path: Path) -> AsyncIterator[Line]:
-    """A client of the monitor. It is closed also where the test fails: else a later test is blamed for its socket."""
-    reader, writer = await asyncio.open_unix_connection(str(path))
-    try:
-        yield Line(reader, writer.write)
-    finally:
-        writer.close()
-        await asyncio.gather(writer.wait_closed(), return_exceptions=True)
-
-
 @pytest.fixture
 def port() -> int:
     return free_port()
@@ -202,33 +191,6 @@ def test_every_relay_is_off_after_a_stop_in_mid_motion(config: Config, tmp_path:
     assert world.drives() == OFF
     assert world.relay_starts == 2, "once off, nothing switches a motor on again"
     assert not (tmp_path / "gs232").is_symlink()
-
-
-def test_its_links_can_be_watched_and_where_they_cannot_it_runs_all_the_same(config: Config, tmp_path: Path) -> None:
-    """Two boxes share a folder, and so the place of the monitor: the second one goes without."""
-
-    async def talk() -> None:
-        second = config.model_copy(update={"link": [config.link[0].model_copy(update={"pty": f"{tmp_path}/other"})]})
-        async with running(App(config)), terminal(tmp_path / "gs232") as line:
-            async with asyncio.timeout(PATIENCE_S):
-                while not (tmp_path / "monitor").is_socket():
-                    await asyncio.sleep(0)
-            async with (
-                running(App(second)),
-                terminal(tmp_path / "other") as other,
-                watching(tmp_path / "monitor") as watcher,
-            ):
-                assert (await watcher.answer()).startswith(b"# rotator ")
-                await other.ask(b"C2\r")
-                await line.ask(b"C2\r")
-                async with asyncio.timeout(PATIENCE_S):
-                    heard = b""
-                    while b" < AZ" not in heard:
-                        heard = await watcher.answer()
-                assert heard.endswith(b" gs232b#1 < AZ=000  EL=000\\r\\n\n")
-        assert not (tmp_path / "monitor").exists()
-
-    asyncio.run(talk())
 
 
 # --- ends without a stop

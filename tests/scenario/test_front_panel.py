@@ -133,15 +133,6 @@ def shack() -> Shack:
     return Shack()
 
 
-def test_auto_obeys_the_pc_one_motor_at_a_time(shack: Shack) -> None:
-    assert shack.hands.lit() == {"auto"}
-    together = []
-    shack.world.gpio.on_edges.append(lambda _now_s, _changes: together.append(all(shack.world.drives())))
-    shack.pc("W120 045")
-    assert shack.comes_to(120.0, 45.0)
-    assert not any(together)
-
-
 def test_a_press_in_auto_is_added_to_the_order_until_the_mode_changes(shack: Shack) -> None:
     shack.pc("W120 045")
     assert shack.comes_to(120.0, 45.0)
@@ -211,15 +202,6 @@ def test_the_stop_button_stops_and_only_a_person_at_the_panel_ends_it(shack: Sha
     assert shack.comes_to(300.0, 45.0)
 
 
-def test_for_a_second_at_the_start_every_lamp_is_lit_and_every_meter_is_at_its_end() -> None:
-    shack = Shack(calibrate=True)  # this one waits for nothing
-    shack.wait(0.8)  # with the time of its buses nearly a second
-    assert shack.hands.lit() == set(shack.hands.spec.lamps)
-    assert [shack.hands.needle(axis) for axis in ("azimuth", "elevation")] == pytest.approx([1.0, 1.0], abs=0.01)
-    shack.wait(0.4)
-    assert shack.hands.lit() != set(shack.hands.spec.lamps)
-
-
 @pytest.mark.search
 @pytest.mark.parametrize(
     ("turned", "axis", "wire"),
@@ -255,31 +237,6 @@ def test_a_knob_with_a_loose_wire_never_sends_the_antenna_to_an_end() -> None:
         shack.hands.turn_knob("elevation", chance.uniform(0.1, 0.3))
         shack.wait(chance.choice([0.05, 0.1, 0.3, 1.5]))
         assert shack.shafts[0] == pytest.approx(90.0, abs=2.0)
-
-
-def test_the_knobs_reach_both_ends_of_the_range(shack: Shack) -> None:
-    shack.turn_mode(MANUAL)
-    # Each axis rests 1° before the last edge of its contact: beyond it nothing shows that the relay has opened.
-    for turned, elevation_deg in ((1.0, 175.5), (0.0, 1.5)):
-        shack.hands.turn_knob("azimuth", turned)
-        shack.hands.turn_knob("elevation", turned)
-        shack.wait(90.0)
-        azimuth_deg, stands_deg = shack.shafts
-        assert stands_deg == pytest.approx(elevation_deg, abs=0.5)
-        assert min(azimuth_deg, 360.0 - azimuth_deg) <= 2.5, "0 and 360 are the same direction"
-        assert shack.loop.status.azimuth.fault is shack.loop.status.elevation.fault is None
-
-
-def test_a_move_by_the_knobs_turns_the_azimuth_first_then_the_elevation(shack: Shack) -> None:
-    shack.turn_mode(MANUAL)
-    seen: list[tuple[int, int]] = []
-    shack.world.gpio.on_edges.append(lambda _now_s, _changes: seen.append(shack.world.drives()))
-    shack.hands.turn_knob("elevation", 0.5)
-    shack.hands.turn_knob("azimuth", 0.5)
-    shack.wait(60.0)
-    turns = [drives for drives in seen if drives != (0, 0)]
-    assert (turns[0], turns[-1]) == ((1, 0), (0, 1))
-    assert turns == sorted(turns, reverse=True), "first the whole azimuth, then the elevation, never both"
 
 
 def test_a_dead_panel_bus_ends_a_jog(shack: Shack) -> None:

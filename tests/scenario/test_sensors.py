@@ -90,25 +90,3 @@ def test_pots_on_a_rotor_that_brings_none(kind: str) -> None:
     box.wait(1.0)
     assert box.loop.status.azimuth.fault is not None
     assert box.loop.status.azimuth.fault.name == "pot open or shorted"
-
-
-@pytest.mark.parametrize(("kind", "motor"), [("digipot", "motor-stalled"), ("servo", "servo-stalled")])
-@pytest.mark.parametrize("sensor", ["azimuth-pot-crackles:16", "azimuth-pot-spikes:16", "adc-noisy:60"])
-def test_bad_readings_do_not_hide_that_a_drive_stands(kind: str, motor: str, sensor: str) -> None:
-    text = POTS + f"[{kind}.azimuth]\nstart_deg = 40\n" + (RELAY if kind == "digipot" else "")
-    box = Box(rotor(kind) + (text.replace("max_deg = 350", "max_deg = 170") if kind == "servo" else text))
-    box.aim(60.0, 20.0, seconds=8.0)
-    box.world.inject(sensor)
-    box.aim(100.0, 20.0, seconds=0.3)
-    box.world.inject(f"azimuth-{motor}")
-    box.aim(160.0, 20.0, seconds=4.0)
-    assert [fault.name for fault in box.loop.status.faults] == ["axis does not follow"]
-
-
-def test_a_pot_corrects_the_model_of_a_control_box() -> None:
-    # The model believes the file's 6°/s; cold grease lets the motor do two fifths of that.
-    box = Box(rotor("digipot") + POTS + RELAY + "[digipot.azimuth]\nstart_deg = 40\n")
-    box.world.inject("azimuth-motor-slow")
-    box.aim(160.0, 20.0, seconds=8.0)
-    assert box.loop.status.azimuth.angle_deg == pytest.approx(box.world.shafts()[0], abs=1.0)
-    assert box.loop.status.azimuth.fault is None

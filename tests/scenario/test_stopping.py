@@ -189,33 +189,6 @@ def test_a_part_that_cannot_be_stopped_skips_no_other(
     check_everything_stopped(app)
 
 
-def test_what_ended_the_box_comes_before_what_fails_while_it_stops(config: Config) -> None:
-    app = App(config)
-    link = FailingLink()
-    app.links.insert(0, link)
-    lines_are_taken_away_after_the_loop(app)
-    with pytest.raises(ZeroDivisionError, match="a bug in a link's run"):
-        asyncio.run(run_until_it_turns(app, link.broken.set, stop_it=False))
-    check_everything_stopped(app)
-
-
-def test_a_folder_that_has_gone_skips_nothing(config: Config, tmp_path: Path) -> None:
-    """A memory card that was drawn: no symlink, socket or file is where it was."""
-    app = App(config)
-    gone = tmp_path.with_name(tmp_path.name + "-gone")
-
-    def draw_the_card() -> None:
-        tmp_path.rename(gone)
-        tmp_path.write_text("a file where the folder was")
-
-    asyncio.run(run_until_it_turns(app, draw_the_card))
-    tmp_path.unlink()
-    gone.rename(tmp_path)
-    assert {link.wire.state for link in app.links} == {"closed"}
-    assert world_of(app).drives() == OFF
-    assert not [thread.name for thread in threading.enumerate() if thread.name in THREADS]
-
-
 def test_a_guard_that_dies_ends_the_box(config: Config, caplog: pytest.LogCaptureFixture) -> None:
     app = App(config)
     rotor, world = app.station.rotor, world_of(app)

@@ -56,36 +56,11 @@ def test_without_permission_it_names_the_group() -> None:
 # --- the lines
 
 
-def test_named_lines_switch_in_one_instant() -> None:
-    gpio = simulated(PI_4)
-    instants: list[dict[int, bool]] = []
-    gpio.on_edges.append(lambda _now_s, changes: instants.append(dict(changes)))
-    lines = take(gpio)
-    lines.set({"azimuth_cw": True, "azimuth_ccw": True})
-    lines.set({"azimuth_cw": False})
-    assert instants == [{22: True, 23: True}, {22: False}]
-
-
-def test_lines_that_were_released_cannot_be_switched() -> None:
-    """Another program may hold them by now."""
-    gpio = simulated(PI_4)
-    lines = take(gpio)
-    lines.close()
-    with pytest.raises(HardwareError, match="cannot switch azimuth_cw: the lines have been released"):
-        lines.set({"azimuth_cw": True})
-    assert not gpio.level(22)
-
-
 def test_a_switch_to_ground_reads_closed_and_an_open_one_is_pulled_up() -> None:
     gpio = simulated(PI_4)
     gpio.drive_input(10, False)
     inputs = GpioInputs(gpio, "/dev/gpiochip0", {"msb": 10, "lsb": 9}, consumer="test")
     assert inputs.read() == {"msb": True, "lsb": False}
-
-
-def test_a_chip_that_is_not_there_is_a_sentence() -> None:
-    with pytest.raises(HardwareError, match=r"/dev/gpiochip7: cannot take azimuth_cw on GPIO22.*No such file"):
-        take(simulated(PI_4), "/dev/gpiochip7")
 
 
 # --- looking without taking

@@ -33,42 +33,6 @@ def switch(gpio: SimGpio, clock: SimClock, *levels: bool, every_s: float = 0.1) 
         clock.sleep(every_s)
 
 
-def told(contact: GpioContact) -> list[tuple[float, bool, int]]:
-    return [(round(change.at_s - 1000.0, 6), change.closed, change.lost) for change in contact.changes()]
-
-
-def test_an_opto_isolator_pulls_the_line_low(gpio: SimGpio, clock: SimClock) -> None:
-    contact = GpioContact(gpio, PATH, PIN, consumer="test")
-    assert gpio.level(PIN)  # the Pi's own resistor
-    assert not contact.closed()
-    switch(gpio, clock, False)
-    assert contact.closed()
-    switch(gpio, clock, True)
-    assert told(contact) == [(0.02, True, 0), (0.12, False, 0)]
-    assert contact.changes() == []
-
-
-def test_a_contact_to_3v3_is_active_high(gpio: SimGpio, clock: SimClock) -> None:
-    contact = GpioContact(gpio, PATH, PIN, consumer="test", active_low=False)
-    assert not contact.closed()
-    switch(gpio, clock, True)
-    assert told(contact) == [(0.02, True, 0)]
-
-
-def test_with_a_resistor_outside_the_pi_s_own_stays_off(gpio: SimGpio, clock: SimClock) -> None:
-    contact = GpioContact(gpio, PATH, PIN, consumer="test", pull=False)
-    assert not gpio.level(PIN)  # nothing holds it
-    switch(gpio, clock, True)
-    assert not contact.closed()
-
-
-def test_a_quarter_of_a_minute_of_chatter_waits_for_a_late_reader(gpio: SimGpio, clock: SimClock) -> None:
-    contact = GpioContact(gpio, PATH, PIN, consumer="test")
-    switch(gpio, clock, *[False, True] * 350, every_s=0.021)
-    clock.sleep(0.1)
-    assert [change.lost for change in contact.changes()] == [0] * 700
-
-
 def test_what_was_dropped_is_counted(gpio: SimGpio, clock: SimClock) -> None:
     contact = GpioContact(gpio, PATH, PIN, consumer="test")
     switch(gpio, clock, *[False, True] * 600, every_s=0.021)

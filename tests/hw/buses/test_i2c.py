@@ -57,16 +57,6 @@ def bus(wire: SimI2CBus) -> SmbusI2C:
     return SmbusI2C(wire, "/dev/i2c-1")
 
 
-def test_a_write_reaches_the_chip_in_one_piece(bus: SmbusI2C, chip: Memory) -> None:
-    bus.write(ADDRESS, b"\x01\xc3\xe3")
-    assert chip.log == [b"\x01\xc3\xe3"]
-
-
-def test_several_registers_are_read_in_order_in_one_transfer(bus: SmbusI2C, chip: Memory) -> None:
-    assert bus.read_each(ADDRESS, (1, 0), 2) == [b"\x85\x83", b"\x85\x83"]
-    assert chip.log == [b"\x01", 2, b"\x00", 2]
-
-
 @pytest.mark.parametrize("way", ["empty", "gone"])
 def test_a_chip_that_does_not_answer(bus: SmbusI2C, wire: SimI2CBus, way: str) -> None:
     address = 0x49 if way == "empty" else ADDRESS

@@ -56,16 +56,6 @@ def test_one_shot_against_ground_with_the_comparator_off(channel: int, settings:
     assert bench.config() == config  # OS reads 1: the conversion has ended
 
 
-# --- volts
-
-
-def test_a_little_below_ground_is_a_little_below_zero_not_full_scale() -> None:
-    # the result is in two's complement: 0xFFF8
-    bench = Bench()
-    bench.volts[0] = -0.001
-    assert bench.driver().volts(0) == pytest.approx(-0.001, abs=125e-6)
-
-
 # --- time: 1 / data rate, the oscillator 10 % fast or slow
 
 

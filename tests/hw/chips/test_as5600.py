@@ -40,21 +40,6 @@ def test_the_reading_is_the_share_of_a_turn(bench: Bench, turn: float) -> None:
     assert bench.driver().read() == turn
 
 
-def test_a_range_across_the_chips_zero_is_read_without_a_jump(bench: Bench) -> None:
-    # A magnet glued on as it came: the axis goes from 0.9 over 0 to 0.15 of the chip's turn.
-    sensor = bench.driver(zero_turn=0.5)
-    readings = []
-    for step in range(26):
-        bench.turn = 0.9 + step * 0.01
-        readings.append(sensor.read())
-    assert readings == pytest.approx([0.4 + step * 0.01 for step in range(26)], abs=STEP)
-
-
-def test_a_range_burned_into_the_chip_changes_nothing(bench: Bench) -> None:
-    bench.chip.write(bytes.fromhex("01 04 00 08 00"))
-    assert bench.driver().read() == pytest.approx(0.3, abs=STEP)
-
-
 # --- what goes wrong
 
 

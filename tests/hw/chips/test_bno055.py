@@ -50,17 +50,6 @@ def bench() -> Bench:
     return Bench()
 
 
-# --- booting and setting up
-
-
-@pytest.mark.parametrize(
-    ("mounting", "axis_map", "signs"), [("P0", 0x21, 0x04), ("P2", 0x24, 0x06), ("P7", 0x24, 0x05)]
-)
-def test_mounted_another_way(bench: Bench, mounting: str, axis_map: int, signs: int) -> None:
-    bench.driver(mounting=mounting).attitude()
-    assert (bench.register(0x41), bench.register(0x42)) == (axis_map, signs)
-
-
 # --- angles
 
 
@@ -82,25 +71,6 @@ def test_a_reading_takes_less_than_10_ms(bench: Bench) -> None:
 
 
 # --- calibration and offsets
-
-
-def test_the_calibration_is_read_part_by_part(bench: Bench) -> None:
-    driver = bench.driver()
-    driver.attitude()
-    assert driver.calibration() == (0, 0, 0, 0)
-    bench.clock.sleep(4.0)
-    found = driver.calibration()
-    assert (found.gyroscope, found.magnetometer) == (3, 1)
-    bench.clock.sleep(15.0)
-    assert driver.calibration() == (3, 3, 3, 3)
-
-
-def test_offsets_are_read_and_fusion_goes_on(bench: Bench) -> None:
-    driver = bench.learnt()
-    assert driver.offsets() == LEARNT
-    bench.heading_deg = 200.0
-    bench.clock.sleep(0.01)  # fusion runs at 100 Hz
-    assert driver.heading_deg() == 200.0
 
 
 def test_with_its_offsets_a_chip_learns_faster(bench: Bench) -> None:
@@ -138,50 +108,6 @@ def test_garbled_answers_are_read_again(share: float) -> None:
     wrong = sum(error_deg > 3.0 for error_deg in errors_deg)  # bit 7 of the low byte is 8 degrees
     print(f"bit 7 set in {share:.1%} of the bytes: {wrong} of {len(errors_deg)} headings wrong")  # noqa: T201
     assert wrong == 0
-
-
-def test_garbled_offsets_are_not_believed(bench: Bench) -> None:
-    driver = bench.learnt()
-    bench.chip.bit7_share = 0.05
-    for _ in range(20):
-        assert driver.offsets() == LEARNT
-
-
-def test_where_no_two_answers_are_the_same_the_error_names_the_cure(bench: Bench) -> None:
-    driver = bench.learnt()
-    bench.chip.bit7_share = 0.5
-    with pytest.raises(HardwareError, match=r"change from reading to reading; .* dtoverlay=i2c-gpio"):
-        driver.attitude()
-
-
-class GarbledAngles:
-    """The bus's view of a chip whose angles, and nothing else, arrive with every bit 7 set."""
-
-    def __init__(self, chip: SimBno055) -> None:
-        self._chip = chip
-
-    def write(self, data: bytes) -> None:
-        self._chip.write(data)
-
-    def read(self, count: int) -> bytes:
-        answer = self._chip.read(count)
-        return bytes(octet | 0x80 for octet in answer) if count == 6 else answer
-
-
-def test_impossible_angles_are_not_taken_also_when_they_are_steady(bench: Bench) -> None:
-    bench.wire.detach(0x28)
-    bench.wire.attach(0x28, GarbledAngles(bench.chip))
-    with pytest.raises(HardwareError, match="change from reading to reading"):
-        bench.driver().attitude()
-
-
-def test_a_real_turn_is_believed(bench: Bench) -> None:
-    # The chip corrects itself by tens of degrees when it finds north.
-    driver = bench.learnt()
-    driver.heading_deg()
-    bench.heading_deg = 160.0
-    bench.clock.sleep(0.05)
-    assert driver.heading_deg() == 160.0
 
 
 # --- what else goes wrong

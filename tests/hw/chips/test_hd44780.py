@@ -82,12 +82,6 @@ def test_a_reset_shows_nothing_and_is_on(bench: Bench) -> None:
     assert bench.glass.display_on
 
 
-def test_rows_are_cut_and_padded_to_the_width(bench: Bench) -> None:
-    bench.display.reset()
-    bench.display.show(("0123456789ABCDEFGHIJ", "short"))
-    assert bench.glass.text() == ("0123456789ABCDEF", "short           ")
-
-
 def test_signs_outside_ascii_come_from_rom_a00(bench: Bench) -> None:
     bench.display.reset()
     bench.display.show(("235° → ←", "a\\b ~ é"))
@@ -95,24 +89,6 @@ def test_signs_outside_ascii_come_from_rom_a00(bench: Bench) -> None:
 
 
 # --- backpacks
-
-
-@pytest.mark.parametrize("board", list(BOARDS))
-def test_the_light_is_on(board: str) -> None:
-    bench = OnBackpack(board)
-    bench.display.reset()
-    assert bench.backpack.backlight
-    bench.display.show(ROWS)
-    assert bench.backpack.backlight
-
-
-def test_a_row_is_one_write_of_about_68_bytes() -> None:
-    bench = OnBackpack()
-    bench.display.reset()
-    started_s = bench.clock()
-    bench.display.show(ROWS[:1])
-    wire_bytes = round((bench.clock() - started_s) / 90e-6)
-    assert 68 <= wire_bytes <= 74  # four a character, the address, RS in between: 6.5 ms at 100 kHz
 
 
 def test_a_display_plugged_in_again_is_brought_up_from_power_on() -> None:

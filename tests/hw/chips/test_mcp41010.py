@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 
 import pytest
@@ -12,7 +11,7 @@ from firmware_sim.buses.spi import SimSpidev
 from firmware_sim.chips.mcp41010 import Mcp41010 as SimChip
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
-from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev
+from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus
 from hw.chips.mcp41010 import Mcp41010
 from hw.ports import HardwareError
 
@@ -68,16 +67,3 @@ def test_taking_the_lines_moves_no_wiper() -> None:
 def test_a_kernel_without_spi() -> None:
     with pytest.raises(HardwareError, match=r"there is no /dev/spidev0.0: switch SPI on"):
         KernelSpi(SimSpidev({}), 0, {"azimuth": 0})
-
-
-def test_a_device_that_was_closed() -> None:
-    bus = Bench().kernel()
-    bus.close()
-    with pytest.raises(HardwareError, match="SPI: cannot send to azimuth"):
-        bus.send("azimuth", b"\x11\x00")
-
-
-def test_without_spidev_it_says_what_else_there_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "spidev", None)
-    with pytest.raises(HardwareError, match="install it, or use GPIO lines"):
-        real_spidev()

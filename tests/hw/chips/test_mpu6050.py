@@ -57,59 +57,11 @@ def test_the_reading_is_the_elevation_over_the_top_and_beyond(bench: Bench, elev
     assert bench.driver().read() == pytest.approx(elevation_deg, abs=0.01)
 
 
-@pytest.mark.parametrize(
-    ("forward", "up", "elevation_deg"),
-    [("+x", "+z", 30.0), ("-x", "+z", -30.0), ("+z", "+x", 60.0), ("+x", "-z", 150.0), ("-x", "-z", 210.0)],
-)
-def test_mounted_another_way(bench: Bench, forward: str, up: str, elevation_deg: float) -> None:
-    assert bench.driver(mounting=Mounting(forward, up)).read() == pytest.approx(elevation_deg, abs=0.01)
-
-
-def test_a_reading_leaves_a_20_hz_loop_its_time(bench: Bench) -> None:
-    sensor = bench.driver()
-    sensor.read()
-    started_s = bench.clock()
-    sensor.read()
-    assert bench.clock() - started_s < 1e-3
-
-
-# --- noise, 400 ug per root Hz
-
-
-@pytest.mark.parametrize(("averaged", "rms_deg"), [(1, 0.09), (4, 0.045)])
-def test_averaging_halves_the_noise_of_four(averaged: int, rms_deg: float) -> None:
-    bench = Bench(noise_g_per_root_hz=400e-6)
-    sensor = bench.driver(averaged=averaged)
-    errors = []
-    for _ in range(600):
-        bench.clock.sleep(CYCLE_S)
-        errors.append(sensor.read() - 30.0)
-    assert math.sqrt(math.fsum(error**2 for error in errors) / len(errors)) == pytest.approx(rms_deg, rel=0.15)
-
-
-def test_moving_at_3_degrees_a_second_the_average_is_a_quarter_of_a_degree_late(bench: Bench) -> None:
-    sensor = bench.driver()
-    late = []
-    for _ in range(100):
-        bench.clock.sleep(CYCLE_S)
-        bench.elevation_deg += 3.0 * CYCLE_S
-        late.append(bench.elevation_deg - sensor.read())
-    assert max(late) < 0.25
-
-
 # --- what goes wrong
 
 
 def jolt(bench: Bench, along_x_g: float) -> None:
     bench.chip.offset_g = (along_x_g, 0.0, 0.0)
-
-
-@pytest.mark.parametrize(("jolt_g", "felt"), [(0.16, "1.16"), (-0.16, "0.84")])
-def test_what_is_not_near_1_g_is_not(bench: Bench, jolt_g: float, felt: str) -> None:
-    bench.elevation_deg = 90.0
-    jolt(bench, jolt_g)
-    with pytest.raises(HardwareError, match=f"it feels {felt} g"):
-        bench.driver().read()
 
 
 def test_a_short_jolt_is_passed_over_and_a_long_one_is_an_error(bench: Bench) -> None:

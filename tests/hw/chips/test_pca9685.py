@@ -50,25 +50,6 @@ def test_a_pulse_at_once_after_the_start(width_us: float, ticks: int) -> None:
     assert bench.chip.early_writes == 0
 
 
-def test_an_oscillator_of_27_mhz_makes_right_pulses_when_it_is_known() -> None:
-    bench = Bench(osc_hz=27e6)
-    driver = bench.driver(osc_hz=27e6)
-    driver.pulse(0, 1500)
-    assert bench.chip.pulse_us(0) == pytest.approx(1500, abs=driver.tick_us / 2)
-    bench.driver().pulse(0, 1500)
-    assert bench.chip.pulse_us(0) == pytest.approx(1500 * 25 / 27, abs=5)
-
-
-def test_off() -> None:
-    bench = Bench()
-    driver = bench.driver()
-    for output in (0, 1):
-        driver.pulse(output, 1500)
-    driver.off(0)
-    assert bench.chip.pulse_us(0) is None
-    assert bench.chip.pulse_us(1) is not None
-
-
 # --- what goes wrong
 
 

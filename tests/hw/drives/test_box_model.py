@@ -19,27 +19,6 @@ def after(box: BoxModel, seconds: float, wiper_deg: float, down_deg: float = 1.0
     return box.angle_deg
 
 
-@pytest.mark.parametrize(("wiper_deg", "rests_deg"), [(160.0, 158.5), (40.0, 41.0)])
-def test_it_turns_at_the_motor_s_speed_and_rests_short_of_the_wiper(wiper_deg: float, rests_deg: float) -> None:
-    box = model()
-    way = 1.0 if wiper_deg > 100.0 else -1.0
-    assert after(box, 1.0, wiper_deg) == pytest.approx(100.0 + way * 6.0)
-    assert after(box, 60.0, wiper_deg) == pytest.approx(rests_deg)
-
-
-@pytest.mark.parametrize(("wiper_deg", "turns"), [(102.0, False), (98.0, False), (102.1, True), (97.9, True)])
-def test_a_motor_at_rest_starts_beyond_the_dead_band_only(wiper_deg: float, turns: bool) -> None:
-    box = model()
-    assert (after(box, 1.0, wiper_deg) != 100.0) is turns
-
-
-def test_a_motor_that_turns_goes_on_into_the_dead_band() -> None:
-    box = model()
-    after(box, 1.0, 160.0)
-    assert after(box, 1.0, 107.9) == pytest.approx(106.4), "1.9° away is within the band, and it rests at 1.5°"
-    assert after(box, 5.0, 107.0) == pytest.approx(106.4), "at rest now"
-
-
 def test_the_angle_is_known_when_the_slowest_motor_must_have_come_from_the_furthest_end() -> None:
     box = model(100.0, 0.0, 450.0)
     furthest_s = (450.0 - 101.0) / (SPEED_DPS * SLOW)

@@ -17,7 +17,7 @@ from hw.drives.box_supply import ENABLE
 from hw.drives.control_box import BoxSpec
 from hw.drives.digipot import DigipotDrive
 from hw.drives.leases import LONGEST_LEASE_S
-from hw.ports import AngleSource, Axis, HardwareError
+from hw.ports import Axis, HardwareError
 from hw.safety.guard import Guard
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -98,23 +98,6 @@ def test_with_the_relay_nothing_turns_before_the_first_aim() -> None:
 # --- motion
 
 
-@pytest.mark.parametrize("kernel", [False, True], ids=["lines", "spidev"])
-@pytest.mark.parametrize("angle_deg", [0.0, 39.0, 100.0, 360.0])
-def test_the_box_goes_where_the_wiper_says_and_the_model_with_it(kernel: bool, angle_deg: float) -> None:
-    bench = Bench(kernel=kernel)
-    bench.follow(AZ, angle_deg, 60.0)
-    assert bench.antenna(AZ) == pytest.approx(angle_deg, abs=BAND_DEG)
-    assert bench.drive.sensor(AZ).read() == pytest.approx(bench.antenna(AZ), abs=1.5)
-    assert bench.drive.sensor(AZ).source is AngleSource.MODELLED
-
-
-def test_on_the_way_the_model_is_where_the_antenna_is() -> None:
-    bench = Bench()
-    for _ in range(8):
-        bench.follow(AZ, 100.0, 1.0)
-        assert bench.drive.sensor(AZ).read() == pytest.approx(bench.antenna(AZ), abs=1.5)
-
-
 @pytest.mark.parametrize("stop", ["hold", "off", "expiry"])
 def test_stop_is_where_it_is(stop: str) -> None:
     bench = Bench()
@@ -170,35 +153,6 @@ def test_chips_that_forgot_their_steps_get_them_before_the_supply_comes_back() -
 
 
 # --- what a model does not know
-
-
-def test_a_motor_that_stalls_is_not_noticed_until_it_is_measured() -> None:
-    bench = Bench()
-    bench.rotor.inject("azimuth-motor-stalled")
-    bench.follow(AZ, 100.0, 20.0)
-    assert bench.antenna(AZ) == 40.0
-    assert bench.drive.sensor(AZ).read() == pytest.approx(100.0, abs=0.8)
-    bench.clock.sleep(LONGEST_LEASE_S)
-    bench.drive.found(AZ, 40.0)
-    bench.drive.hold(AZ)
-    assert bench.rotor.azimuth.chip.step == 28
-
-
-def test_a_held_box_does_not_chase_a_sensor_that_disagrees_with_its_own_pot() -> None:
-    bench = Bench()
-    bench.follow(AZ, 40.0, 1.0)
-    for _ in range(200):
-        bench.clock.sleep(0.05)
-        bench.drive.found(AZ, bench.antenna(AZ) + 6.0)
-        bench.drive.hold(AZ)
-    assert bench.antenna(AZ) == pytest.approx(46.0, abs=BAND_DEG + 1.5)
-
-
-def test_a_broken_select_leaves_the_chip_in_the_middle() -> None:
-    bench = Bench()
-    bench.rotor.inject("azimuth-select-broken")
-    bench.follow(AZ, 40.0, 40.0)
-    assert bench.antenna(AZ) == pytest.approx(180.0, abs=BAND_DEG)
 
 
 def watched(bench: Bench, seconds: float, *, aim_deg: float | None = None) -> None:

@@ -27,15 +27,6 @@ def test_without_renewal_the_relay_opens(asked_s: float) -> None:
     assert off.at_s - on.at_s == pytest.approx(min(asked_s, 0.5))
 
 
-@pytest.mark.parametrize("left_s", [0.1, 0.0])
-def test_a_command_may_be_shortened(left_s: float) -> None:
-    bench = Bench()
-    bench.drive(AZ, PLUS, 0.4)
-    bench.drive(AZ, PLUS, left_s)
-    bench.clock.sleep(left_s)
-    assert bench.on() == set()
-
-
 class OneLineStuck:
     """Outputs of which the azimuth's cannot be switched off."""
 
@@ -129,15 +120,6 @@ class Waiting:
     def _wait(self, bank: RelayBank, patience_s: float) -> None:
         bank.wait_until_due(patience_s)
         self.back.set()
-
-
-def test_a_thread_that_waits_for_the_next_end_comes_back_at_once_when_it_is_due() -> None:
-    bench = Bench(guarded=False)
-    bench.drive(AZ, PLUS, 0.2)
-    bench.clock.sleep(0.2)
-    bench.bank.wait_until_due(math.inf)  # else this test would not end
-    bench.clock.sleep(5.0)
-    bench.bank.wait_until_due(math.inf)
 
 
 def test_a_command_wakes_the_thread_that_waits() -> None:

@@ -68,19 +68,6 @@ def test_the_watch_hears_of_the_end_when_the_relay_is_open(bench: Bench) -> None
     assert bench.journal.heard[-1] == ("rest", False)
 
 
-def test_the_master_alone_needs_no_watch(bench: Bench) -> None:
-    bench.drive(AZ, PLUS)
-    bench.drive(AZ, OFF)
-    assert bench.gpio.level(26)
-    assert bench.journal.words() == ["renew", "rest"]
-
-
-def test_a_motor_that_waits_out_its_dead_time_is_not_on(bench: Bench) -> None:
-    bench.drive(AZ, PLUS)
-    bench.drive(AZ, MINUS)
-    assert bench.journal.words() == ["renew", "rest"]
-
-
 def test_without_a_watch_no_relay_closes(bench: Bench) -> None:
     bench.journal.gone = True
     with pytest.raises(HardwareError, match="the sentinel is gone"):

@@ -16,7 +16,6 @@ from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from hw.chips.pca9685 import Pca9685
-from hw.drives.leases import LONGEST_LEASE_S
 from hw.drives.servo import ENABLE, ServoDrive
 from hw.drives.servo_axis import ServoSpec
 from hw.ports import AngleSource, Axis, HardwareError
@@ -124,14 +123,6 @@ def test_the_first_pulse_is_at_the_start_angle_and_waits_for_the_servo() -> None
     assert bench.rotor.board.pulse_us(1) is None, "the other axis was not asked to move"
 
 
-def test_outputs_are_enabled_when_the_pulse_is_right_and_not_before() -> None:
-    bench = Bench()
-    pulses_us: list[float | None] = []
-    bench.rotor.gpio.on_edges.append(lambda _at_s, _changes: pulses_us.append(bench.rotor.board.pulse_us(0)))
-    bench.follow(AZ, 90.0, 1.0)
-    assert pulses_us == [pytest.approx(500 + 60 / 180 * 2000, abs=4.88)]
-
-
 @settings(max_examples=examples(40), deadline=None)
 @given(
     at_deg=st.tuples(st.floats(0, 180), st.floats(0, 180)),
@@ -168,17 +159,6 @@ def test_a_stop_in_the_jump_is_carried_out_although_the_guard_has_ended() -> Non
     assert bench.rotor.board.pulse_us(0) is None
 
 
-def test_one_servo_that_stops_in_its_jump_leaves_the_other_its_pulses() -> None:
-    bench = Bench()
-    bench.follow(EL, 10.0, SETTLED_S)
-    bench.follow(AZ, 120.0, 0.2)
-    bench.drive.hold(AZ)
-    bench.clock.sleep(0.1)
-    assert bench.rotor.board.pulse_us(0) is None
-    assert bench.rotor.board.pulse_us(1) is not None
-    assert not bench.rotor.gpio.level(OE_PIN), "OE stays low for it"
-
-
 # --- motion
 
 
@@ -201,15 +181,6 @@ def test_a_moving_target_is_followed_between_orders() -> None:
     assert bench.antenna(AZ) == pytest.approx(90.0, abs=0.5)
     assert bench.drive.sensor(AZ).read() == pytest.approx(90.0, abs=0.1)
     assert bench.drive.sensor(AZ).source is AngleSource.MODELLED
-
-
-def test_a_course_that_runs_out_is_held_where_it_is() -> None:
-    bench = Bench()
-    bench.settle()
-    bench.drive.aim(AZ, 180.0, 0.0, bench.clock() + 60.0)
-    bench.clock.sleep(10.0)
-    assert bench.antenna(AZ) == pytest.approx(60 + 40 * LONGEST_LEASE_S, abs=2.0)
-    assert bench.rotor.board.pulse_us(0) is not None, "it holds"
 
 
 @pytest.mark.parametrize("stop", ["hold", "off", "an aim that has run out"])
@@ -266,17 +237,6 @@ def test_release_is_limp_and_the_next_aim_is_a_first_one() -> None:
     assert bench.antenna(AZ) == pytest.approx(61.0, abs=2 * TICK_DEG)
 
 
-def test_an_idle_servo_gets_no_pulses_though_orders_repeat_its_angle() -> None:
-    bench = Bench(idle_off_s=5.0)
-    bench.settle()
-    bench.follow(AZ, 60.0, 6.0)
-    assert bench.rotor.board.pulse_us(0) is None
-    assert bench.rotor.gpio.level(OE_PIN)
-    bench.follow(AZ, 62.0, 0.5)
-    assert bench.rotor.board.pulse_us(0) is not None
-    assert bench.antenna(AZ) == pytest.approx(62.0, abs=TICK_DEG), "no wait: it is where it was left"
-
-
 # --- the board
 
 
@@ -298,21 +258,6 @@ def test_a_board_without_supply_is_an_error_and_comes_back_without_a_pulse(fault
     assert not bench.drive.position_known(AZ)
     bench.follow(AZ, 100.0, SETTLED_S + 2.0)
     assert bench.antenna(AZ) == pytest.approx(100.0, abs=TICK_DEG)
-
-
-@pytest.mark.parametrize(
-    ("azimuth", "said"),
-    [
-        (ServoSpec(1, PULSES_US, 0.0, 40.0), "azimuth and elevation are both on output 1"),
-        (ServoSpec(0, PULSES_US, 200.0, 40.0), "azimuth servo: 200.0° is outside"),
-        (ServoSpec(0, ((0.0, 500.0),), 0.0, 40.0), "calibration table: needs two points or more"),
-    ],
-)
-def test_a_specification_that_contradicts_itself(azimuth: ServoSpec, said: str) -> None:
-    bench = Bench()
-    chip = Pca9685(SmbusI2C(bench.rotor.bus, "bus 1"), 0x40, bench.clock.sleep)
-    with pytest.raises(HardwareError, match=said):
-        ServoDrive(chip, azimuth, ServoSpec(1, PULSES_US, 0.0, 40.0), bench.clock)
 
 
 # --- the next run of the program

@@ -86,17 +86,6 @@ def test_until_it_stands_a_controller_that_holds_is_spoken_to_as_often(speed_dps
 # --- torque
 
 
-def test_a_released_controller_that_another_program_let_time_out_is_not_at_fault() -> None:
-    bench = Bench()
-    bench.moves()
-    bench.axis.release()
-    bench.says(mode=Mode.STOPPED)
-    bench.hears()
-    bench.says(mode=Mode.TIMEOUT)
-    assert [bench.hears(), bench.hears()] == [Query(), Query()]
-    assert bench.axis.fault is None
-
-
 def test_the_bus_may_be_closed_when_a_hold_was_answered_and_it_stands() -> None:
     bench = Bench()
     bench.moves()
@@ -127,15 +116,6 @@ def test_what_an_earlier_run_left_timed_out_is_stopped_before_it_moves() -> None
 
 
 # --- silence
-
-
-def test_its_answer_is_used_for_300_ms() -> None:
-    bench = Bench()
-    assert bench.axis.angle_deg(50.299) == pytest.approx(90.0)
-    for ask in (lambda: bench.axis.angle_deg(50.301), lambda: bench.axis.aim(0.0, 0.0, 60.0, 50.301)):
-        with pytest.raises(HardwareError, match="moteus 1 does not answer: check its supply, the CAN wires and its id"):
-            ask()
-    bench.axis.aim(0.0, 0.0, 60.0, 50.299)
 
 
 def test_after_a_silence_it_is_asked_before_it_moves_on() -> None:

@@ -89,24 +89,6 @@ def bench(tmp_path: Path) -> Iterator[Bench]:
         bench.adapter.unplug()
 
 
-def test_a_ramp_of_3_dps_is_followed_within_a_twentieth_of_a_degree(bench: Bench) -> None:
-    started_s = time.monotonic()
-    errors_deg: list[float] = []
-
-    def followed() -> bool:
-        now_s = time.monotonic()
-        bench.aim(AZ, 3.0 * (now_s - started_s), 3.0)
-        antenna_deg, before_s = bench.world.antenna()[0], time.monotonic()
-        if before_s - started_s > 1.5:
-            errors_deg.append(abs(antenna_deg - 3.0 * (before_s - started_s)))
-        return before_s - started_s > 4.0
-
-    wait_for(followed)
-    errors_deg.sort()
-    print(f"3°/s ramp in real time: median {errors_deg[len(errors_deg) // 2]:.4f}°, worst {errors_deg[-1]:.4f}°")  # noqa: T201
-    assert errors_deg[int(0.95 * len(errors_deg))] < 0.05
-
-
 def test_an_order_does_not_wait_for_the_next_cycle(bench: Bench) -> None:
     wait_for(bench.reaches(AZ, 0.0))
     lines = bench.world.lines.transcript
@@ -119,27 +101,6 @@ def test_an_order_does_not_wait_for_the_next_cycle(bench: Bench) -> None:
         bench.aim(AZ, 0.0)
         took_s.append(wait_for(lambda: any("8001 01000A0E2000000000" in line for line in lines)))
     assert sorted(took_s)[7] < 0.02
-
-
-def test_parked_it_is_spoken_to_ten_times_a_second_and_its_watchdog_stays_quiet(bench: Bench) -> None:
-    wait_for(bench.reaches(AZ, 1.0))
-    bench.drive.off()
-    lines = bench.world.lines.transcript
-    lines.clear()
-    took_s = wait_for(lambda: sum("can send 8001 01000A" in line for line in lines) >= 15)
-    assert 15 / took_s > 10
-    assert (bench.mode(AZ), bench.drive.faults()) == (Mode.POSITION, {})
-
-
-@pytest.mark.parametrize("mishap", ["adapter-deaf", "lines-dropped", "lines-garbled", "lines-late", "azimuth-silent"])
-def test_a_wire_gone_bad_is_logged_and_heals(bench: Bench, mishap: str) -> None:
-    bench.world.inject(mishap)
-    wait_for(lambda: not bench.answers(AZ))
-    assert "moteus 1 does not answer" in bench.complaint(AZ)
-    if mishap == "azimuth-silent":
-        assert bench.answers(EL)
-    bench.world.clear(mishap)
-    wait_for(lambda: bench.answers(AZ) and bench.answers(EL))
 
 
 def test_unplugged_for_50_ms_it_goes_on_and_the_log_tells_it(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
@@ -186,25 +147,6 @@ def test_unplugged_until_its_watchdog_stops_it_takes_the_next_order(bench: Bench
     wait_for(lambda: bench.answers(AZ))
     wait_for(bench.reaches(AZ, 3.0))
     assert bench.drive.faults() == {}
-
-
-def test_unplugged_for_longer_it_waits_for_a_person(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
-    caplog.set_level(logging.DEBUG, "hw.moteus.bus")
-    wait_for(bench.reaches(AZ, 2.0))
-    bench.world.inject("adapter-unplugged")
-    wait_for(lambda: not bench.answers(AZ))
-    busy_s = time.process_time()
-    wait_for(lambda: not bench.drive.forgiven(AZ))
-    wait_for(lambda: "next try in 0.5 s" in caplog.text)
-    assert time.process_time() - busy_s < 0.5, "it spins"
-    bench.world.clear("adapter-unplugged")
-    wait_for(lambda: bench.answers(AZ))
-    wait_for(lambda: AZ in bench.drive.faults())
-    assert "stopped by itself" in bench.drive.faults()[AZ]
-    bench.drive.acknowledge(AZ)
-    wait_for(lambda: not bench.drive.faults() and bench.mode(AZ) is Mode.POSITION)
-    wait_for(bench.reaches(AZ, 3.0))
-    assert not [record for record in caplog.records if record.levelname == "ERROR"]
 
 
 def test_closing_decelerates_and_ends_the_thread(bench: Bench) -> None:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from types import SimpleNamespace
 from typing import Any
 
-import pytest
-
-from hw.moteus.library import CanChannel, SerialPort, library
+from hw.moteus.library import CanChannel, SerialPort
 from hw.moteus.orders import WATCHDOG_S
-from hw.ports import HardwareError
 
 
 class Asked:
@@ -46,13 +42,3 @@ def test_a_can_interface_is_the_kernel_s_with_flexible_data_rate() -> None:
     moteus = Asked()
     CanChannel("can0")(moteus)
     assert moteus.wanted == {"interface": "socketcan", "channel": "can0", "fd": True}
-
-
-def test_a_port_is_named_as_in_the_configuration() -> None:
-    assert (str(SerialPort("/dev/fdcanusb")), str(CanChannel("can0"))) == ("/dev/fdcanusb", "can0")
-
-
-def test_without_the_package_it_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "moteus", None)
-    with pytest.raises(HardwareError, match=r"moteus: its Python package cannot be loaded .*: pip install --no-deps"):
-        library()

@@ -25,24 +25,6 @@ def at(angle_deg: float, *, closed: bool, cam: Cam = CAM) -> CamCount:
 
 
 @pytest.mark.parametrize(
-    ("angle_deg", "closed", "zone", "stands_deg"),
-    [
-        (5.4, True, 2, 5.4),
-        (4.8, True, 2, 5.0),
-        (6.3, True, 2, 6.0),
-        (5.9, False, 3, 6.0),
-        (8.0, False, 3, 8.0),
-    ],
-)
-def test_within_its_error_it_stands_where_the_contact_allows(
-    angle_deg: float, closed: bool, zone: int, stands_deg: float
-) -> None:
-    count = CamCount(CAM)
-    assert count.place(0.0, angle_deg, closed=closed, within_deg=0.5)
-    assert (count.zone, count.angle_deg(), count.trouble) == (zone, stands_deg, "")
-
-
-@pytest.mark.parametrize(
     ("angle_deg", "closed", "within_deg", "words"),
     [
         (3.0, True, 0.5, "the contact is closed, as it is at no place within 0.5° of 3.0°"),

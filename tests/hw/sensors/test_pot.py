@@ -46,12 +46,6 @@ def bench() -> Bench:
     return Bench()
 
 
-def test_without_a_reference_a_drooping_supply_looks_like_an_angle(bench: Bench) -> None:
-    pot = PotSensor(bench.adc, WIPER, 3.3)
-    bench.supply_v = 3.0
-    assert pot.read() == pytest.approx(0.25 * 3.0 / 3.3, abs=STEP)
-
-
 def test_with_a_reference_it_does_not(bench: Bench) -> None:
     pot = bench.ratiometric()
     pot.read()

@@ -58,27 +58,6 @@ def test_a_lease_that_runs_out_between_two_readings_is_heard() -> None:
     assert rig.counter.at_rest
 
 
-def test_it_is_at_rest_when_it_has_stopped_coasting() -> None:
-    rig = PulseRig()
-    rig.run(PLUS, 1.0)
-    rig.wait(0.3)
-    assert not rig.counter.at_rest
-    rig.wait(0.3)
-    assert rig.counter.at_rest
-
-
-@pytest.mark.parametrize("cut", ["off", "guard"])
-def test_all_off_from_another_thread_is_heard_too(cut: str) -> None:
-    rig = PulseRig(102.0)
-    rig.bank.drive(AZ, PLUS, rig.clock() + 0.4)
-    rig.clock.sleep(0.2)
-    if cut == "off":
-        rig.bank.off()
-    else:
-        rig.bank.enforce(rig.clock() + 1.0)
-    assert rig.wait(5.0) == pytest.approx(rig.shaft_deg, abs=0.2)
-
-
 def test_it_knows_whether_its_contact_is_closed_and_that_the_next_change_is_ahead() -> None:
     rig = PulseRig(100.8)
     seen: list[bool] = []
@@ -141,29 +120,6 @@ def test_a_welded_relay_is_turning_with_no_relay_on() -> None:
     rig.rotor.inject("azimuth-relay-welded-cw")
     rig.wait(5.0)
     assert "no relay on" in rig.counter.trouble
-
-
-def test_a_hand_on_the_mast_is_noticed() -> None:
-    rig = PulseRig(102.0)
-    rig.wait(2.0)
-    rig.rotor.inject("azimuth-hand-turns")
-    rig.wait(5.0)
-    assert "no relay on" in rig.counter.trouble
-
-
-def test_a_minute_of_unread_chatter_is_noticed() -> None:
-    rig = PulseRig(100.0)
-    for change in range(1200):
-        rig.rotor.gpio.drive_input(17, change % 2 == 1)
-        rig.clock.sleep(0.021)
-    rig.wait(0.5)
-    assert "went unseen" in rig.counter.trouble
-
-
-def test_a_motor_much_slower_than_it_is_said_to_be_makes_the_count_doubtful_not_wrong() -> None:
-    rig = PulseRig(100.0, pace=0.5)
-    rig.move(PLUS, 10.0)
-    assert rig.counter.trouble
 
 
 # --- placing
