@@ -9,12 +9,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
-from typing import Any
 
 from benchmarks.drills.browser import Browser
 from benchmarks.drills.card import STATE, Card
-from benchmarks.drills.lanes import KeptLane
+from benchmarks.drills.lanes import StateLane
 from benchmarks.drills.script import PAGE, Drill
 from benchmarks.drills.sentinel import DrilledSentinel
 from benchmarks.drills.speech import PROTOCOLS
@@ -24,7 +22,7 @@ from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import Axis
 from hw.safety.lines_off import switch_off
 from rotator.assembly.hands import hands
-from rotator.assembly.kept_files import build_learnt, build_relays_file, build_tries_file
+from rotator.assembly.kept_files import build_learnt, build_relays, build_tries
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.sessions import session_maker
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
@@ -42,12 +40,9 @@ from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.keeping import Keeping
 from rotator.runtime.loop import ControlLoop
-from rotator.store import counts, knobs, latch
-from rotator.store.latch import LatchFile
-from rotator.store.relays import FILE_NAME as RELAYS_NAME
-from rotator.store.relays import RelaysFile
-from rotator.store.tries import FILE_NAME as TRIES_NAME
-from rotator.store.tries import TriesFile
+from rotator.store import counts
+from rotator.store.latch import KeptLatch
+from rotator.store.state import State
 
 SENTINEL_S = 0.04
 """Seconds after the death of the program until its sentinel has opened the relays (docs/safety.md)."""
@@ -85,12 +80,15 @@ class Box:
         )
         assert self.station.world is not None
         self.world: SimRotor = self.station.world
-        learnt, relays = build_learnt(config), build_relays_file(config, memory)
-        commissioning = Axis(drill.commissioning) if drill.commissioning else None
-        trusts = relays.begin(BEGINS_S) if relays else None
-        kept, tried = LatchFile(folder / latch.FILE_NAME, memory), build_tries_file(config, memory)
+        self._state = state = State(folder / STATE, memory)
+        learnt, relays, tried = build_learnt(config, state), build_relays(config, state), build_tries(config, state)
         assert tried is not None, "the rotor of a drill outlives its program"
+        commissioning = Axis(drill.commissioning) if drill.commissioning else None
+        kept = KeptLatch(state)
         stopped, tries = kept.load(), tried.load()
+        kept.note(stopped)
+        tried.note(tries)
+        trusts = relays.begin(BEGINS_S) if relays else None
         controller = build_controller(
             config,
             learnt.load(),
@@ -103,12 +101,8 @@ class Box:
         )
         self.events, self.page_events = EventWatch(clock), EventWatch(clock)
         """The watches over the event loops that serve the links and the page; the drill ticks for them."""
-        files: list[LatchFile | TriesFile | RelaysFile] = [kept, tried, *([relays] if relays else [])]
-        latches = KeptLane(card.lane(latch.FILE_NAME), kept.save, kept.spare, stopped)
-        vain = KeptLane(card.lane(TRIES_NAME), tried.save, tried.spare, tries)
-        self._lanes: list[KeptLane[Any]] = [latches, vain]
-        if relays:
-            self._lanes.append(KeptLane(card.lane(RELAYS_NAME), relays.save, relays.spare, trusts or {}))
+        self._lane = StateLane(card.lane(STATE), state)
+        after = self._lane.after
         self.loop = ControlLoop(
             controller,
             self.station.rotor,
@@ -118,15 +112,16 @@ class Box:
             events=self.events,
             page_events=self.page_events,
             keeping=Keeping(
-                latch=latches.note, tries=vain.note, trusts=self._lanes[-1].note if relays else lambda _trusts: None
+                latch=after(kept.note),
+                tries=after(tried.note),
+                trusts=after(relays.note) if relays else lambda _trusts: None,
             ),
-            card=CardWatch(lambda: [file.trouble for file in files]),
+            card=CardWatch(lambda: [state.trouble]),
         )
-        for lane in self._lanes:
-            lane.start()
+        self._lane.save()
         self._relays = relays
         self._autosave = Autosave(self.loop, None, build_offsets(config), learnt)
-        self._learns, self._knobs = card.lane(STATE), card.lane(knobs.FILE_NAME)
+        self._learns, self._knobs = card.lane(STATE), card.lane(STATE)
         self._looked_s = clock()
         self._mount = build_mount(config)
         self._numbers = itertools.count(1)
@@ -134,7 +129,7 @@ class Box:
         self._sources: dict[str, Source] = {}
         """By link or person: the source of its session."""
         self.tracking = DrilledTracking(config, self.loop, self._mount, clock, begun_s)
-        self.panel = self._panel(folder / knobs.FILE_NAME) if config.panel.fitted else None
+        self.panel = self._panel(state) if config.panel.fitted else None
 
     def cycle(self, *, blind: bool = False) -> None:
         """One turn of the control loop; `blind`: the reading thread hangs."""
@@ -146,14 +141,12 @@ class Box:
         if self.panel:
             self.panel.cycle(now_s)
         if self._card.hangs:
-            for lane in self._lanes:
-                lane.work()
+            self._lane.work()
             self._card.work()
         if now_s - self._looked_s < LOOKS_S:
             return
         self._looked_s = now_s
-        for lane in self._lanes:
-            lane.look(now_s)
+        self._lane.look(now_s)
         if self.panel and not self._knobs.busy:
             self._knobs(partial(self.panel.save, now_s))
 
@@ -194,8 +187,9 @@ class Box:
         if self.panel:
             self.panel.dark()
         self.station.close()
-        if relays := self._relays:
-            self._lanes[-1].end(partial(relays.save, ending=True))
+        if self._relays:
+            self._relays.note({axis: self.loop.status.axis(axis).trusts for axis in Axis}, ending=True)
+        self._lane.save()
         self._learns(self._autosave.close)
         self.alive = False
 
@@ -224,7 +218,7 @@ class Box:
         calibrates = {"may_calibrate": True} if who == "gs232a" else {}
         return session_maker(Link.model_validate({"protocol": PROTOCOLS[who], **place, **calibrates}), client)
 
-    def _panel(self, file: Path) -> PanelThread:
+    def _panel(self, state: State) -> PanelThread:
         parts = self.station.panel
         assert parts is not None
         return panel_thread(
@@ -233,7 +227,7 @@ class Box:
             lambda: self.loop.status,
             lambda order: self.loop.post(PANEL, order),
             self._clock,
-            knobs=file,
+            state=state,
             pulses=self.station.rotor.closed_contacts,
         )
 

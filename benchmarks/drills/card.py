@@ -14,12 +14,12 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from benchmarks.drills.lanes import LOOKS_S, Lane
-from rotator.store import counts, knobs, latch, relays, tries
+from rotator.store import counts
 from rotator.store.hanging import writes
 from rotator.store.whole import NEW
 
 STATE = "state.json"
-NAMES = (STATE, counts.FILE_NAME, knobs.FILE_NAME, latch.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME)
+NAMES = (STATE, counts.FILE_NAME)
 WORKS, REFUSES, REFUSES_LATER, HANGS = 0.0, 1.0, 2.0, 3.0
 """The numbers of an event `card`. `REFUSES_LATER`: it refuses from the next end of the program on, so that the next run
 finds the content from before."""
@@ -40,8 +40,9 @@ class Card:
         self._lanes: list[Lane] = []
         self._older: dict[str, bytes] = {}
         """By file: what it held when a run of the program began."""
-        self._changed: dict[str, tuple[float, bytes | None]] = {}
-        """By file: when it was changed under the running box, and what it held before; None: there was no such file."""
+        self._changed: dict[str, tuple[float, bytes | None, bytes | None]] = {}
+        """By file: when it was changed under the running box, and what it held before and after; None: there was no
+        such file."""
 
     @property
     def hangs(self) -> bool:
@@ -86,40 +87,43 @@ class Card:
     def change(self, name: str, how: str, now_s: float) -> None:
         """Another program or a person changes this file."""
         path = self.folder / name
-        self._changed[name] = now_s, path.read_bytes() if path.exists() else None
+        before = _held(path)
         if how == "deleted" or (how == "older" and name not in self._older):
             path.unlink(missing_ok=True)
         else:
             path.write_bytes({"emptied": b"", "garbled": b"\x00{}" * 40}.get(how) or self._older.get(name, b""))
+        self._changed[name] = now_s, before, _held(path)
 
     def program_begins(self) -> None:
         """A run has begun: its files as they are now."""
         for name in NAMES:
-            if (path := self.folder / name).exists():
-                self._older[name] = path.read_bytes()
+            if (held := _held(self.folder / name)) is not None:
+                self._older[name] = held
 
-    def end_program(self, now_s: float, end: Callable[[], None], *, killed: bool) -> bool:
-        """The program ends. Returns whether the file of its stop is spoilt."""
+    def end_program(self, now_s: float, end: Callable[[], None], *, killed: bool) -> None:
+        """The program ends."""
         if killed or self.hangs:
             with self._as_it_is():
                 end()
         else:
             end()
         self._lanes.clear()
-        spoilt = self._put_back(now_s)
+        self._put_back(now_s)
         if self._state == REFUSES_LATER:
             self.become(REFUSES)
-        return spoilt
 
-    def _put_back(self, now_s: float) -> bool:
-        """A person puts back what was changed so late that the box could not write it again: a box that counts and one
-        with a weld cannot know better than their files."""
-        late = {name: before for name, (at_s, before) in self._changed.items() if now_s - at_s < NOTICES_S}
+    def _put_back(self, now_s: float) -> None:
+        """A person puts back what was changed so late that the box could not write it again: a box that counts, and one
+        with a weld or a stop, cannot know better than their files."""
+        for name, (at_s, before, after) in self._changed.items():
+            path = self.folder / name
+            if now_s - at_s >= NOTICES_S or _held(path) != after:
+                continue
+            if before is None:
+                path.unlink(missing_ok=True)
+            else:
+                path.write_bytes(before)
         self._changed.clear()
-        for name in (counts.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME):
-            if (before := late.get(name)) is not None:
-                (self.folder / name).write_bytes(before)
-        return latch.FILE_NAME in late
 
     @contextmanager
     def _as_it_is(self) -> Iterator[None]:
@@ -152,6 +156,10 @@ class Card:
             os.close(end)
         for pipe in pipes:
             pipe.unlink(missing_ok=True)
+
+
+def _held(path: Path) -> bytes | None:
+    return path.read_bytes() if path.is_file() else None
 
 
 def _pipes(folder: str, names: list[str]) -> list[str]:

@@ -11,10 +11,11 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import TypeVar
 
-from rotator.runtime.latch_thread import LOOKS_S as SAVES_AGAIN_S
+from rotator.runtime.state_thread import LOOKS_S as LOOKS_AGAIN_S
 from rotator.store.hanging import writes
+from rotator.store.state import State
 from rotator.store.whole import NEW
 
 T = TypeVar("T")
@@ -70,42 +71,38 @@ class Lane:
             self._jobs.popleft()()
 
 
-class KeptLane(Generic[T]):
-    """`rotator.runtime.latch_thread` in simulated time: the newest note is written, and noted in memory meanwhile."""
+class StateLane:
+    """`rotator.runtime.state_thread` in simulated time: the newest is written, and noted in memory meanwhile."""
 
-    def __init__(self, lane: Lane, save: Callable[[T], bool], spare: Callable[[T], None], kept: T) -> None:
-        self._lane, self._save, self._spare = lane, save, spare
-        self._newest = kept
+    def __init__(self, lane: Lane, state: State) -> None:
+        self._lane, self._state = lane, state
         self._tried_s = 0.0
-        self._fresh = False
-        """The newest note has come since the card hangs, and is nowhere yet."""
 
-    def start(self) -> None:
-        self.note(self._newest)
+    def after(self, note: Callable[[T], None]) -> Callable[[T], None]:
+        """This note, and then the state is written. On a card that hangs that begins in `work`."""
 
-    def note(self, newest: T) -> None:
-        self._newest = newest
-        if self._lane.hangs:
-            self._fresh = True
-        else:
-            self._lane(lambda: self._save(newest))
+        def noted(newest: T) -> None:
+            note(newest)
+            if not self._lane.hangs:
+                self.save()
+
+        return noted
+
+    def save(self) -> None:
+        """Does not wait for a card that hangs."""
+        self._lane(self._state.save)
 
     def work(self) -> None:
-        """The card hangs: write the newest note, or note it in memory while an older one waits for the card."""
-        if self._fresh:
-            self._fresh, newest = False, self._newest
+        """The card hangs: write what is new, or note it in memory while something older waits for the card."""
+        if self._state.unspared or self._state.unwritten:
             if self._lane.busy:
-                self._spare(newest)
+                self._state.spare()
             else:
-                self._lane(lambda: self._save(newest))
+                self.save()
                 self._lane.work()
-
-    def end(self, save: Callable[[T], bool]) -> None:
-        """The program ends: write the present state this way. It does not wait for a card that hangs."""
-        self._lane(lambda: save(self._newest))
 
     def look(self, now_s: float) -> None:
         """Save the same again: the card may have refused it, or the file have been changed."""
-        if not self._lane.busy and (self._fresh or now_s - self._tried_s >= SAVES_AGAIN_S):
-            self._tried_s, self._fresh = now_s, False
-            self.note(self._newest)
+        if not self._lane.busy and now_s - self._tried_s >= LOOKS_AGAIN_S:
+            self._tried_s = now_s
+            self.save()

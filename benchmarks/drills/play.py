@@ -212,8 +212,7 @@ class _Play:
         """The program ends, and starts again after the seconds that the event gives. Only the files in its folder
         remain."""
         killed = event.what == "kill"
-        if self._card.end_program(self._now_s, self._box.die if killed else self._box.end, killed=killed):
-            self._orders.stops.spoil()
+        self._card.end_program(self._now_s, self._box.die if killed else self._box.end, killed=killed)
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._card, self._clock, self._box.world, begun_s=STARTED_S)

@@ -88,10 +88,6 @@ class Stops:
         self._free(pressed=pressed)
         self.acknowledged_s = self.released_s = now_s
 
-    def spoil(self) -> None:
-        """The file of the stop is spoilt as the program ends: its next run may know of none, or begin stopped."""
-        self._stopped_s = math.inf
-
     def restart(self, now_s: float, *, pressed: bool) -> None:
         """The program ends. A stop that the program had time to store holds in its next run."""
         stopped = (self.latched or self.storm_holds) and now_s - self._stopped_s > TAKEN_S

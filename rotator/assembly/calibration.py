@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 from hw.ports import Axis, Compass, HardwareError
 from rotator.assembly.board import Board
@@ -18,7 +17,6 @@ from rotator.config.model import Config
 from rotator.control.controller import Controller
 from rotator.exchange.motor import Trusts
 from rotator.exchange.status import Latch
-from rotator.store import compass
 from rotator.store.learnt import Motors
 
 SCALES_DEG = {Axis.AZIMUTH: (-360.0, 720.0), Axis.ELEVATION: (-90.0, 210.0)}
@@ -84,14 +82,6 @@ def open_compass(config: Config, board: Board) -> Compass:
             "(rotator help sensors)"
         )
     return compass_chip(table, board.bus(table.bus), board.clock, board.sleep)
-
-
-def compass_path(config: Config) -> Path | None:
-    """The file with the compass's own corrections. None for a simulated compass: a real chip must never get those.
-
-    A simulated world that is kept has a state file of its own.
-    """
-    return Path(config.state.path).with_name(compass.FILE_NAME) if config.keeps_files else None
 
 
 def _reach_deg(config: Config, axis: Axis) -> tuple[float, float]:

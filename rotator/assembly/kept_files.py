@@ -1,50 +1,47 @@
-"""From a configuration to the files that outlast a run: trust in relays, vain tries, a latched stop, learnt motors.
+"""From a configuration to what outlasts a run: trust in relays, vain tries, a latched stop, learnt motors, counts.
 
-Part of the composition root. Knows where each file is, and which settings its content depends on. Does not know what is
-in a file.
+Part of the composition root. Knows where the files are, and which settings their content depends on. Does not know what
+is in them.
 """
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_offsets, own_points
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
+from rotator.config.places import memory_folder
 from rotator.config.sim import SimAxisTable
-from rotator.store import counts, relays
+from rotator.store import counts
 from rotator.store.counts import CountsFile
-from rotator.store.latch import FILE_NAME as LATCH_NAME
-from rotator.store.latch import LatchFile
-from rotator.store.learnt import LearntFile
-from rotator.store.relays import RelaysFile
-from rotator.store.tries import FILE_NAME as TRIES_NAME
-from rotator.store.tries import TriesFile
+from rotator.store.learnt import KeptMotors
+from rotator.store.relays import KeptRelays
+from rotator.store.state import State
+from rotator.store.tries import KeptTries
 
 
-def build_relays_file(config: Config, memory: Path | None = None) -> RelaysFile | None:
-    """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays.
-
-    `memory`: a folder in memory, for a card that refuses; None: there is none.
-    """
-    kept = config.keeps_files and config.rotor.switched
-    return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME), memory) if kept else None
+def build_state(config: Config, path: Path | None = None) -> State:
+    """What the box remembers. `path`: the configuration's file."""
+    return State(Path(config.state.path), memory_folder(config.state.path, path, os.environ))
 
 
-def build_tries_file(config: Config, memory: Path | None = None) -> TriesFile | None:
-    """The file of vain tries and of the stops that were met; None where the rotor does not outlive the program.
+def build_relays(config: Config, state: State) -> KeptRelays | None:
+    """The doubts about relays that survive the program; None where the rotor does not, or has no relays."""
+    return KeptRelays(state) if config.keeps_files and config.rotor.switched else None
+
+
+def build_tries(config: Config, state: State) -> KeptTries | None:
+    """The vain tries and the stops that were met; None where the rotor does not outlive the program.
 
     A stop that was met with another calibration, offset or limit is forgotten.
     """
     if not config.keeps_files:
         return None
     settings = {axis: _scale(config, axis) for axis in Axis}
-    return TriesFile(Path(config.state.path).with_name(TRIES_NAME), memory, settings)
-
-
-def build_latch_file(config: Config, memory: Path | None = None) -> LatchFile:
-    return LatchFile(Path(config.state.path).with_name(LATCH_NAME), memory)
+    return KeptTries(state, settings)
 
 
 def build_modelled_file(config: Config) -> CountsFile | None:
@@ -59,8 +56,8 @@ def build_modelled_file(config: Config) -> CountsFile | None:
     return CountsFile(Path(config.state.path).with_name(counts.FILE_NAME), settings)
 
 
-def build_learnt(config: Config) -> LearntFile:
-    """The file of the learnt motors. It ignores figures that were learnt with other settings of the motor."""
+def build_learnt(config: Config, state: State) -> KeptMotors:
+    """The learnt motors. Figures that were learnt with other settings of the motor are ignored."""
 
     def described(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
         motor: dict[str, object] = {"hardware": config.rotor.hardware}
@@ -69,8 +66,8 @@ def build_learnt(config: Config) -> LearntFile:
             motor["sim"] = sim.model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
         return motor
 
-    return LearntFile(
-        Path(config.state.path),
+    return KeptMotors(
+        state,
         {
             Axis.AZIMUTH: described(config.azimuth, config.sim.azimuth),
             Axis.ELEVATION: described(config.elevation, config.sim.elevation),

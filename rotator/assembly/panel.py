@@ -6,7 +6,7 @@ Knows the drivers and the wiring. The panel knows the meaning of a switch, the a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from pathlib import Path
+from functools import partial
 
 from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
@@ -22,7 +22,8 @@ from rotator.panel.lights import LightWiring
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.common import BlockedDirections, no_switches
-from rotator.store.knobs import KnobsFile
+from rotator.store.knobs import KNOBS
+from rotator.store.state import State
 
 LAMP_TEST_S = 1.0
 METER_HZ = 1000.0
@@ -83,16 +84,17 @@ def panel_thread(
     post: Callable[[Order], None],
     clock: Callable[[], float],
     *,
-    knobs: Path | None = None,
+    state: State | None = None,
     pulses: Callable[[], Iterable[Axis]] = lambda: (),
     failed: Callable[[Exception], None] = lambda failure: None,
 ) -> PanelThread:
-    """The panel, ready to be started. `knobs`: the file with their full scales; None: they are not kept."""
+    """The panel, ready to be started. `state`: it remembers the knobs' full scales; None: they are not kept."""
     table = config.panel
     nudge_deg = {Axis.AZIMUTH: table.azimuth_nudge_deg, Axis.ELEVATION: table.elevation_nudge_deg}
-    kept = KnobsFile(knobs) if knobs else None
     wiring = KnobWiring(table.knob_lowest_reading, table.knob_highest_reading, table.knob_zero)
-    panel = Panel(PanelSettings(table.has_mode_switch, nudge_deg, wiring, LAMP_TEST_S), kept.load() if kept else {})
-    if kept is None:
+    panel = Panel(
+        PanelSettings(table.has_mode_switch, nudge_deg, wiring, LAMP_TEST_S), state.load(KNOBS) if state else {}
+    )
+    if state is None:
         return PanelThread(panel, parts, status, post, clock, pulses=pulses, failed=failed)
-    return PanelThread(panel, parts, status, post, clock, keep=kept.save, pulses=pulses, failed=failed)
+    return PanelThread(panel, parts, status, post, clock, keep=partial(state.keep, KNOBS), pulses=pulses, failed=failed)

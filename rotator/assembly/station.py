@@ -31,7 +31,7 @@ from rotator.rotors.counts_writer import Later, at_once
 from rotator.rotors.port import AddAlarm, Rotor
 from rotator.runtime.loop import ControlLoop
 from rotator.store import counts as counts_file
-from rotator.store import knobs
+from rotator.store.state import State
 
 
 def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
@@ -192,7 +192,7 @@ def open_station(config: Config) -> Station:
 
 
 def fitted_panel(
-    config: Config, station: Station, loop: ControlLoop, post: Callable[[Order], None]
+    config: Config, station: Station, loop: ControlLoop, post: Callable[[Order], None], state: State
 ) -> PanelThread | None:
     """The front panel of a running box, not started yet; None: it has none. `post` takes its orders."""
     if station.panel is None:
@@ -203,7 +203,7 @@ def fitted_panel(
         lambda: loop.status,
         post,
         time.monotonic,
-        knobs=Path(config.state.path).with_name(knobs.FILE_NAME) if config.keeps_files else None,
+        state=state if config.keeps_files else None,
         pulses=station.rotor.closed_contacts,
         failed=loop.fail,
     )

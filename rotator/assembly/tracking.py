@@ -9,7 +9,6 @@ import logging
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 from rotator.assembly.settings import build_mount, planned_motors
 from rotator.assembly.sky import build_catalogue, build_later_catalogue, build_site
@@ -27,7 +26,8 @@ from rotator.exchange.status import AxisStatus, Status
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, beyond_beam
 from rotator.runtime.loop import ControlLoop
-from rotator.store.priorities import FILE_NAME, Priorities
+from rotator.store.priorities import Priorities
+from rotator.store.state import State
 from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
@@ -42,7 +42,7 @@ from rotator.tracking.tracker import NO_PLAN, Tracker
 log = logging.getLogger(__name__)
 
 
-def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingThread:
+def build_tracking(config: Config, loop: ControlLoop, mount: Mount, state: State) -> TrackingThread:
     """Not started yet. Without a place it tracks directions and tables."""
     reader, planner, box = FileReader(), ProcessPlanner(), TrackedBox(config, loop, mount)
     sky = KnownSky(build_site(config.station), build_later_catalogue(config, reader.read))
@@ -56,7 +56,7 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
         why_no_plan=lambda: why_no_plan(config.sky, sky),
         rest=lambda: follower.rest,
     )
-    priorities = build_priorities(config)
+    priorities = Priorities(state)
 
     def wanted() -> list[str]:
         return wanted_names(config.sky, sky, priorities.of)
@@ -74,11 +74,6 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     return TrackingThread(
         tracker, follower, listener, sky, planner=planner, reader=reader, clock=clock, priorities=priorities
     )
-
-
-def build_priorities(config: Config) -> Priorities:
-    """The priorities that a person has changed on the page."""
-    return Priorities(Path(config.state.path).with_name(FILE_NAME))
 
 
 def _as_written(_name: str, written: float) -> float:

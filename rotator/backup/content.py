@@ -1,7 +1,7 @@
 """The content of a backup of the box: its configuration and what it has learnt, in one file; and the check of it.
 
-Knows which files belong to a backup, and how each is checked. Does not know how a backup is put in place: `restore`
-does.
+Knows which sections of the state belong to a backup, and how each is checked; and that an earlier version put a file
+for each of them into it. Does not know how a backup is put in place: `restore` does.
 
 Left out on purpose: counts, because the antenna has moved since; doubts about relays, because a relay does not mend
 itself; pairings, because a revoked pairing must stay revoked.
@@ -14,28 +14,34 @@ import json
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from rotator import __version__
 from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
 from rotator.exchange.foreign import json_of
-from rotator.store import compass, knobs, learnt, priorities
+from rotator.store import learnt
+from rotator.store.compass import COMPASS
 from rotator.store.forms import Form, LaterFormError
+from rotator.store.json_file import decode, encode
+from rotator.store.knobs import KNOBS
 from rotator.store.plain import read_plain
+from rotator.store.priorities import PRIORITIES
+from rotator.store.state import EARLIER, Sections, State
+from rotator.store.state import FORM as STATE_FORM
 
 FORM = Form("rotator backup")
-ABOUT, CONFIGURATION, LEARNT = "backup.json", "rotator.toml", "state.json"
-CHECKS: Mapping[str, Callable[[str], object]] = {
-    LEARNT: learnt.decode,
-    compass.FILE_NAME: compass.decode,
-    knobs.FILE_NAME: knobs.decode,
-    priorities.FILE_NAME: priorities.decode,
+ABOUT, CONFIGURATION, STATE = "backup.json", "rotator.toml", "state.json"
+CHECKS: Mapping[str, Callable[[Any], object]] = {
+    learnt.LEARNT.name: learnt.check,
+    **{section.name: section.parse for section in (COMPASS, KNOBS, PRIORITIES)},
 }
-"""The files that may be in it beside the configuration. Each check raises ValueError."""
+"""The sections of the state that belong to a backup. Each check raises as a section's `parse` does."""
+FORMS = {STATE: STATE_FORM, **{f"{name}.json": form for name, form in EARLIER.items() if name in CHECKS}}
+"""The files that may be in it beside the configuration."""
 MOST_BYTES = 1_000_000
 LARGEST_PART = 300_000
 
@@ -46,14 +52,14 @@ class BackupError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Backup:
-    """A checked backup. `parts`: the texts of the state's files, by name."""
+    """A checked backup. `parts`: of the state."""
 
     made: str
     program: str
     text: str
     """The configuration file."""
     config: Config
-    parts: Mapping[str, str]
+    parts: Sections
 
 
 def pack(path: Path, config: Config | None, utc_s: float) -> bytes:
@@ -63,9 +69,10 @@ def pack(path: Path, config: Config | None, utc_s: float) -> bytes:
     """
     texts = {CONFIGURATION: read_plain(path)}
     if config is not None:
-        for name in CHECKS:
-            with suppress(OSError):  # this box has learnt nothing of it
-                texts[name] = read_plain(place(config, name))
+        sections = State(Path(config.state.path)).sections
+        parts = {name: content for name, content in sections.items() if name in CHECKS and not _damage(name, content)}
+        if parts:
+            texts[STATE] = encode(STATE_FORM, parts).encode()
     made = datetime.fromtimestamp(utc_s, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     about = {"format": FORM.today, "made": made, "program": __version__}
     packed = io.BytesIO()
@@ -92,21 +99,38 @@ def check(data: bytes) -> Backup:
         config = parse(texts[CONFIGURATION], f"{CONFIGURATION} of the backup")
     except ConfigError as fault:
         raise BackupError(str(fault)) from fault
-    parts = {name: text for name, text in texts.items() if name in CHECKS}
-    for name, text in parts.items():
-        try:
-            CHECKS[name](text)
-        except ValueError as fault:
-            raise BackupError(f"{name} of the backup: {fault}") from fault
+    parts: dict[str, Any] = {}
+    for name in FORMS.keys() & texts.keys():
+        parts |= _parts(name, texts[name])
     return Backup(
         str(about.get("made", ""))[:40], str(about.get("program", ""))[:40], texts[CONFIGURATION], config, parts
     )
 
 
-def place(config: Config, name: str) -> Path:
-    """Where this box keeps the file of this name."""
-    state = Path(config.state.path)
-    return state if name == LEARNT else state.with_name(name)
+def _parts(name: str, text: str) -> Sections:
+    """The sections that a file of the backup has. Raises BackupError."""
+
+    def checked(content: dict[str, Any]) -> dict[str, Any]:
+        found = {key: each for key, each in content.items() if key != "format"}
+        parts = found if name == STATE else {name.removesuffix(".json"): found}
+        for key, each in parts.items():
+            if key not in CHECKS:
+                raise ValueError(f"{key[:40]!a} belongs to no backup")
+            CHECKS[key](each)
+        return parts
+
+    try:
+        return decode(FORMS[name], text, checked)
+    except ValueError as fault:
+        raise BackupError(f"{name} of the backup: {fault}") from fault
+
+
+def _damage(name: str, content: Any) -> bool:
+    try:
+        CHECKS[name](content)
+    except (ValueError, KeyError, TypeError, AttributeError):
+        return True
+    return False
 
 
 def _unpacked(data: bytes) -> dict[str, str]:
@@ -114,7 +138,7 @@ def _unpacked(data: bytes) -> dict[str, str]:
 
     Raises BackupError.
     """
-    known = (ABOUT, CONFIGURATION, *CHECKS)
+    known = (ABOUT, CONFIGURATION, *FORMS)
     texts: dict[str, str] = {}
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as file:

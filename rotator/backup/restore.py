@@ -12,10 +12,12 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from rotator.backup.content import Backup, BackupError, check, pack, place
+from rotator.backup.content import Backup, BackupError, check, pack
 from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
+from rotator.store.json_file import encode
 from rotator.store.plain import read_plain
+from rotator.store.state import FORM, State
 from rotator.store.whole import write_whole
 
 log = logging.getLogger(__name__)
@@ -64,12 +66,16 @@ def complete(path: Path, utc_s: float, write: Write = write_whole) -> bool:
 
 
 def _put(path: Path, backup: Backup, write: Write) -> None:
-    """All of it, or nothing. Raises OSError."""
-    files = {place(backup.config, name): text for name, text in backup.parts.items()}
+    """All of it, or nothing. What a backup does not have of the state stays, a latched stop above all. Raises OSError,
+    BackupError."""
+    state = State(Path(backup.config.state.path))
+    if state.later:
+        raise BackupError(f"{state.path}: {state.later}")
+    kept = encode(FORM, {**state.sections, **backup.parts})
     before: dict[Path, bytes | None] = {}
     try:
         # The configuration last: it decides which box starts.
-        for file, text in (*files.items(), (path, backup.text)):
+        for file, text in ((state.path, kept), (path, backup.text)):
             file.parent.mkdir(parents=True, exist_ok=True)
             before[file] = read_plain(file) if file.exists() else None
             write(file, text)
@@ -80,6 +86,7 @@ def _put(path: Path, backup: Backup, write: Write) -> None:
             else:
                 write(file, old)
         raise
+    state.forget_earlier()
 
 
 def _give_up(path: Path) -> None:

@@ -108,9 +108,7 @@ class App:
             *(Part.quick(link.wire.name, link.close) for link in self.links),
             *(Part.blocking(name, thread.stop) for name, thread in threads.items() if thread),
             Part.blocking("closing the hardware", self.station.close),
-            Part.blocking("keeping a stop", built.remembered.latch.close),
-            Part.blocking("keeping vain tries", built.remembered.tries.close),
-            Part.blocking("keeping doubts about relays", lambda: built.remembered.end_properly(built.loop.status)),
+            Part.blocking("keeping what the box remembers", lambda: built.remembered.end_properly(built.loop.status)),
             Part.blocking("the last autosave", built.autosave.close),
             Part.quick("the service manager", built.service_manager.close),
         ]
@@ -121,7 +119,7 @@ class App:
         if self.station.sentinel and self.station.lines:
             built.service_manager.leave(RELAY_LINES, self.station.lines.to_text())
             self._tasks.append(asyncio.create_task(sentinel_fails(self.station.sentinel), name="sentinel"))
-        built.remembered.start()
+        built.remembered.thread.start()
         if (latched := self.loop.status.latch) is not None:
             log.warning("%s", held_by(latched.by, storm=latched.storm))
         if self._anew.holder is not None:
@@ -144,7 +142,8 @@ class App:
         if built.calibration:
             side.append(("the calibration", self._calibrate(built.calibration)))
         elif self.config.compass.at_start:
-            side.append(("compass", watch_at_start(self.config, self.station.board, self.loop)))
+            state = built.remembered.state
+            side.append(("compass", watch_at_start(self.config, self.station.board, self.loop, state)))
         for name, work in side:
             self._side_tasks.append(asyncio.create_task(work, name=name))
         self._tasks.append(asyncio.create_task(built.autosave.run(), name="autosave"))

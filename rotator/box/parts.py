@@ -117,7 +117,7 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         keeping=before.keeping,
         card=before.card,
     )
-    tracking = build_tracking(config, loop, mount)
+    tracking = build_tracking(config, loop, mount, before.state)
     pairings = build_pairings(config, tracking.clock_is_known)
     fetching = build_fetching(config, tracking.clock_is_known, tracking.read_again)
     elements_server = build_elements_server(config, tracking.known_elements)
@@ -154,7 +154,7 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
     )
     mqtt = build_mqtt(config, loop, mount, tracking.tracker)
     post = partial(loop.post, Source("panel"))
-    panel = fitted_panel(config, station, loop, only_stops(post) if calibration else post)
+    panel = fitted_panel(config, station, loop, only_stops(post) if calibration else post, before.state)
     if panel:
         tap.on_data = panel.data_received
     display = station.display

@@ -15,7 +15,7 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.assembly.board import Board
-from rotator.assembly.calibration import compass_path, open_compass
+from rotator.assembly.calibration import open_compass
 from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import CompassReading, HeadingSample, NorthUncertain, find_north, possible_angles_deg
 from rotator.calibrating.compass import READ_EVERY_S, CompassReader
@@ -26,7 +26,8 @@ from rotator.exchange.orders import Confirm
 from rotator.exchange.sources import Source
 from rotator.exchange.status import AxisStatus, Status
 from rotator.runtime.loop import ControlLoop
-from rotator.store.compass import CompassFile
+from rotator.store.compass import KeptCompass
+from rotator.store.state import State
 
 log = logging.getLogger(__name__)
 
@@ -141,11 +142,11 @@ async def watch(
         await asyncio.sleep(READ_EVERY_S if wanted else IDLE_S)
 
 
-def watch_at_start(config: Config, board: Board, loop: ControlLoop) -> Coroutine[Any, Any, None]:
+def watch_at_start(config: Config, board: Board, loop: ControlLoop, state: State) -> Coroutine[Any, Any, None]:
     """What settles the axes that do not know their angles after power-on."""
-    corrections = compass_path(config)
-    compass = open_compass(config, board)
-    reader = CompassReader(compass, time.monotonic, CompassFile(corrections) if corrections else None)
-    start = CompassAtStart(north_facts(config, has_file=corrections is not None))
+    # A real chip must never get the corrections of a simulated one.
+    kept = KeptCompass(state) if config.keeps_files else None
+    reader = CompassReader(open_compass(config, board), time.monotonic, kept)
+    start = CompassAtStart(north_facts(config, has_file=kept is not None))
     source = Source("compass")
     return watch(reader, start, lambda: loop.status, lambda order: loop.post(source, order))

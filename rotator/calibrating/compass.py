@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from hw.ports import Compass, HardwareError
 from rotator.calibrating.bearing import CompassReading
-from rotator.store.compass import CompassFile
+from rotator.store.compass import KeptCompass
 
 READ_EVERY_S = 0.1
 JOIN_S = 3.0
@@ -21,7 +21,7 @@ JOIN_S = 3.0
 class CompassReader:
     """Call `read` now and then, or `start` a thread that does. `latest` may be read from any thread."""
 
-    def __init__(self, compass: Compass, clock: Callable[[], float], file: CompassFile | None) -> None:
+    def __init__(self, compass: Compass, clock: Callable[[], float], file: KeptCompass | None) -> None:
         self.latest: CompassReading | None = None
         self.messages: deque[str] = deque()
         """For the operator: whether the corrections were restored or saved."""

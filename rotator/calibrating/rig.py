@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import ExitStack
-from pathlib import Path
 from typing import Protocol
 
 from hw.ports import Axis, HardwareError
@@ -36,7 +35,8 @@ from rotator.config.model import Config
 from rotator.control.controller import Controller
 from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
-from rotator.store.compass import CompassFile
+from rotator.store.compass import KeptCompass
+from rotator.store.state import State
 
 CALIBRATE = Source("calibrate")
 
@@ -91,7 +91,7 @@ class AxisRig:
 class NorthRig:
     """The whole box as configured, with its compass. Raises HardwareError where the file has no compass.
 
-    `corrections`: the file with the compass's own corrections; None: they are not kept.
+    `corrections`: what remembers the compass's own corrections; None: they are not kept.
     """
 
     def __init__(
@@ -101,12 +101,12 @@ class NorthRig:
         clock: Callable[[], float],
         sleep: Callable[[float], None],
         *,
-        corrections: Path | None = None,
+        corrections: State | None = None,
     ) -> None:
         self._opened = ExitStack()
         self._saving = False
         compass = open_compass(config, Board(station.world, self._opened, clock, sleep))
-        self.compass = CompassReader(compass, clock, CompassFile(corrections) if corrections else None)
+        self.compass = CompassReader(compass, clock, KeptCompass(corrections) if corrections else None)
         self.loop = control_loop(config, guided_controller(config), station, clock)
         self.guide = NorthGuide(north_facts(config, has_file=corrections is not None))
 

@@ -7,7 +7,6 @@ Knows how a rig is started, stepped and stopped, and that its result is saved. D
 from __future__ import annotations
 
 import asyncio
-import os
 import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractAsyncContextManager
@@ -15,8 +14,7 @@ from pathlib import Path
 from typing import Protocol
 
 from hw.ports import Axis
-from rotator.assembly.calibration import compass_path
-from rotator.assembly.kept_files import build_latch_file
+from rotator.assembly.kept_files import build_state
 from rotator.assembly.station import Station
 from rotator.calibrating.results import AngleConfirmed, Result
 from rotator.calibrating.rig import AxisRig, NorthRig, Rig
@@ -27,10 +25,10 @@ from rotator.calibrating.stops import UNREACHED, Stops
 from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.config.load import ConfigError
 from rotator.config.model import Config
-from rotator.config.places import memory_folder
 from rotator.exchange.status import Latch
 from rotator.orbits.sight import Target
 from rotator.runtime.engine import Engine
+from rotator.store.latch import KeptLatch
 
 POLL_S = 0.02
 NORTH, SKY = "north", "sky"
@@ -102,7 +100,8 @@ class CalibrationSession:
 
     def _rig(self, task: str, station: Station) -> Rig:
         if task == NORTH:
-            corrections = compass_path(self._config)
+            # A real chip must never get the corrections of a simulated one.
+            corrections = build_state(self._config, self._path) if self._config.keeps_files else None
             return NorthRig(self._config, station, time.monotonic, time.sleep, corrections=corrections)
         if task == SKY:
             assert self._target is not None, "the command names one"
@@ -160,9 +159,9 @@ class CalibrationSession:
 
     def _keep(self, stopped: Latch) -> None:
         """A stop holds for the box that is started next, too."""
-        file = build_latch_file(self._config, memory_folder(self._config.state.path, self._path, os.environ))
-        file.load()
-        file.save(stopped)
+        kept = KeptLatch(build_state(self._config, self._path))
+        kept.load()
+        kept.save(stopped)
 
     async def _save(self, result: Result) -> bool:
         if isinstance(result, AngleConfirmed):

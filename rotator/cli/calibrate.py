@@ -18,7 +18,7 @@ import click
 from rich.console import Console
 
 from hw.ports import Axis
-from rotator.assembly.kept_files import build_latch_file
+from rotator.assembly.kept_files import build_state
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.station import Station, open_station
 from rotator.calibrating.receiver import BadAddress
@@ -35,12 +35,13 @@ from rotator.cli.run import make_sure_of
 from rotator.cli.screen import log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.config.places import memory_folder, monitor_path
+from rotator.config.places import monitor_path
 from rotator.config.station import NO_PLACE
 from rotator.exchange.spoken import held_by, spoken
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, Target
 from rotator.orbits.targets import find
+from rotator.store.latch import KeptLatch
 from rotator.store.whole import write_whole
 from rotator.views.residual_svg import residual_svg
 
@@ -156,7 +157,7 @@ def _refuse_beside_running_box(config: Config, path: Path | None) -> None:
 def _refuse_stopped(config: Config, path: Path | None) -> None:
     """After a latched stop a person may still be at the mast. So the person at the terminal must confirm that the mast
     is free, which ends the stop. Raises CommandFailed without that confirmation."""
-    kept = build_latch_file(config, memory_folder(config.state.path, path, os.environ))
+    kept = KeptLatch(build_state(config, path))
     if (stopped := kept.load()) is None:
         return
     held = spoken(held_by(stopped.by, storm=stopped.storm))
@@ -168,5 +169,5 @@ def _refuse_stopped(config: Config, path: Path | None) -> None:
     click.echo(wrapped(f"{held}, and nothing turns in a calibration either.", Console()))
     if not click.confirm("Is the mast free of people, and shall the stop end?"):
         raise CommandFailed("the stop stays: nothing was done")
-    if not kept.save(None) and not kept.outlives:
+    if not kept.save(None) and not kept.state.outlives:
         raise CommandFailed("the stop stays: its file cannot be written")

@@ -14,11 +14,13 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from rotator.assembly.tracking import build_antenna, build_priorities, wanted_often
+from rotator.assembly.kept_files import build_state
+from rotator.assembly.tracking import build_antenna, wanted_often
 from rotator.cli.utc import clock_time, day, iso, local_time
 from rotator.config.model import Config
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
+from rotator.store.priorities import Priorities
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.planned import Followed, PlannedPass
 from rotator.tracking.schedule import schedule
@@ -35,7 +37,7 @@ SHOWN_DEG = 0.05
 
 def followed_by(config: Config, site: Site, catalogue: Catalogue) -> list[Followed]:
     """What `[[sky.follow]]` names. Says which targets are not known."""
-    wanted, faults = wanted_often(config.sky, KnownSky(site, catalogue), build_priorities(config).of)
+    wanted, faults = wanted_often(config.sky, KnownSky(site, catalogue), Priorities(build_state(config)).of)
     for fault in faults:
         click.echo(fault, err=True)
     return [each.followed() for each in wanted]
@@ -43,7 +45,7 @@ def followed_by(config: Config, site: Site, catalogue: Catalogue) -> list[Follow
 
 def changed(config: Config) -> list[str]:
     """A line for each priority that a person has changed on the page."""
-    priorities = build_priorities(config)
+    priorities = Priorities(build_state(config))
     inforce = [(each, priorities.of(each.name, each.priority)) for each in config.sky.follow]
     return [
         f"{each.name}: priority {now:g}, changed on the page; the file says {each.priority:g}"

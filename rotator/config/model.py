@@ -45,7 +45,8 @@ SWITCH_ROOM_DEG = 2.0
 
 class StateTable(Table):
     path: FilePath = STATE
-    """The file with the learnt speed and coast of the motors; on a Pi `/var/lib/rotator/state.json`."""
+    """The file with what the box remembers: a stop, doubts about relays, learnt motors, knobs, the order of the plan;
+    on a Pi `/var/lib/rotator/state.json`."""
 
 
 class MonitorTable(Table):

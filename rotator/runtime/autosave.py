@@ -1,7 +1,7 @@
 """Saves while the box runs: calibrations taken over a link, learnt values of the motors, and modelled angles.
 
 Knows when to save, and in which file. Other files do the writing. A failed write is logged, and never stops the box.
-What must outlive a killed program has threads of its own: `latch_thread`.
+`state_thread` writes what must outlive a killed program.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rotator.runtime.aside import aside
 from rotator.runtime.loop import ControlLoop
 from rotator.store.counts import CountsFile
 from rotator.store.hanging import within
-from rotator.store.learnt import LearntFile, Motors
+from rotator.store.learnt import KeptMotors, Motors
 
 log = logging.getLogger(__name__)
 
@@ -44,7 +44,7 @@ class Autosave:
         loop: ControlLoop,
         path: Path | None,
         offsets: Offsets,
-        learnt: LearntFile,
+        learnt: KeptMotors,
         modelled: CountsFile | None = None,
     ) -> None:
         self._loop = loop

@@ -1,6 +1,6 @@
 """Hands over what must outlive the program, each time it changes: a latched stop, vain tries, what is known of relays.
 
-Knows the status. Does not know files: `latch_thread` writes them, and the control thread never waits for that.
+Knows the status. Does not know files: `state_thread` writes them, and the control thread never waits for that.
 """
 
 from __future__ import annotations

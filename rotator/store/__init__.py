@@ -1,1 +1,1 @@
-"""Files that survive the end of the program: counts, learnt motors, knobs, the compass's corrections."""
+"""Files that survive the end of the program: the state, counts, pairings, and what is fetched, sent or flown."""

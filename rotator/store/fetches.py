@@ -5,11 +5,9 @@ Knows the file's form. Does not know how often a server may be asked.
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
-import os
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -17,6 +15,7 @@ from urllib.parse import urlsplit
 
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, number
+from rotator.store.whole import alone
 
 FORM = Form("rotator fetches")
 FILE_NAME = "fetches.json"
@@ -77,20 +76,9 @@ class FetchesFile:
     def __init__(self, path: Path) -> None:
         self._file = JsonFile(path, FORM, "the moment of a fetch")
 
-    @contextmanager
-    def alone(self) -> Iterator[None]:
+    def alone(self) -> AbstractContextManager[None]:
         """Makes one load and one save a single step, because two boxes may share a folder. Hold it only briefly."""
-        try:
-            folder = os.open(self._file.path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        except OSError:  # no folder yet, or not readable: `save` reports that
-            yield
-            return
-        try:
-            with suppress(OSError):  # a file system without locks
-                fcntl.flock(folder, fcntl.LOCK_EX)
-            yield
-        finally:
-            os.close(folder)
+        return alone(self._file.path.parent)
 
     def load(self) -> Fetches | None:
         """None: the file is damaged, or a later version's."""

@@ -73,7 +73,7 @@ class JsonFile:
         self._description = description
         self._seen: tuple[int, ...] | None = None
         """The mark of the file as it was read or written last; None: there was none."""
-        self._later = ""
+        self.later = ""
         """Why the file belongs to another version, and stays as it is; empty: it is of this version."""
 
     def load(self, parse: Parse[T], *, absent: T, damaged: T, consequence: str) -> T:
@@ -87,8 +87,8 @@ class JsonFile:
         except FileNotFoundError:
             return absent
         except LaterFormError as fault:
-            self._later = f"{fault}; update the program, or move the file away"
-            log.warning("%s: %s: %s. The file stays as it is", self.path, consequence, self._later)
+            self.later = f"{fault}; update the program, or move the file away"
+            log.warning("%s: %s: %s. The file stays as it is", self.path, consequence, self.later)
             return damaged
         except (OSError, ValueError) as fault:
             log.warning("%s: %s: %s", self.path, consequence, fault)
@@ -125,11 +125,12 @@ class JsonFile:
     def save(self, content: Mapping[str, object]) -> bool:
         """Replace the file as a whole. False: the write failed. The log has each new reason once."""
         try:
-            if self._later:
-                raise OSError(self._later)
+            if self.later:
+                raise OSError(self.later)
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._write(self.path, encode(self._form, content))
-            self._seen = self._mark()
+            # Deleted in this moment, it is not as it was written.
+            self._seen = self._mark() or ()
         except OSError as fault:
             if str(fault) != self.trouble:
                 log.error("%s: %s cannot be kept: %s", self.path, self._description, fault)

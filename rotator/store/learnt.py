@@ -1,6 +1,6 @@
-"""The file with the measured speed and coast of each motor.
+"""The measured speed and coast of each motor.
 
-Knows the file's form, and which change is large enough for a write. Does not know how a motor is measured.
+Knows which change is large enough for a write. Does not know how a motor is measured.
 """
 
 from __future__ import annotations
@@ -9,18 +9,15 @@ import logging
 import math
 from collections.abc import Mapping
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
 from rotator.exchange.motor import Motor
-from rotator.store import json_file
-from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile, damage, number
+from rotator.store.json_file import damage, number
+from rotator.store.state import Content, Section, State
 
 log = logging.getLogger(__name__)
 
-FORM = Form("rotator state")
 WORTH_WRITING = 0.05
 """A change smaller than this share is written only at the end of the program, because memory cards wear."""
 LEAST_COAST_DEG = 0.2
@@ -35,42 +32,55 @@ MotorSettings = Mapping[str, object]
 """The settings of a motor in the configuration, `speed_dps` among them. Figures of other settings are not used."""
 
 
-def decode(text: str) -> dict[Axis, Motors]:
-    """The figures in the text of a file, with its own settings. Raises ValueError for damaged ones, or another file."""
-
-    def parse(content: dict[str, Any]) -> dict[Axis, Motors]:
-        return {axis: _motors(table, table["begun"]) for axis, table in _tables(content).items()}
-
-    return json_file.decode(FORM, text, parse)
+Tables = Mapping[Axis, Mapping[str, Any]]
+"""The raw table of each axis."""
 
 
-class LearntFile:
-    """Call `load` first, then `note`, then `save` now and then. Failures go to the log, and nothing is raised.
+def _content(tables: Tables) -> Content:
+    return {"axes": {axis.value: dict(table) for axis, table in tables.items()}}
+
+
+def _tables(content: dict[str, Any]) -> Tables:
+    return {axis: dict(content["axes"][axis.value]) for axis in Axis if axis.value in content["axes"]}
+
+
+NONE: Tables = {}
+LEARNT: Section[Tables] = Section("learnt", _tables, _content, NONE, NONE, "ignored, the motors are learnt anew")
+
+
+def check(content: dict[str, Any]) -> None:
+    """The figures of another box, with its own settings. Raises as `LEARNT.parse` does, for damaged ones too."""
+    for table in _tables(content).values():
+        _motors(table, table["begun"])
+
+
+class KeptMotors:
+    """Call `load` first, then `note`, then `save` now and then.
 
     `begun`: the settings of each motor with which this run has begun.
     """
 
-    def __init__(self, path: Path, begun: Mapping[Axis, MotorSettings]) -> None:
-        self._file = JsonFile(path, FORM, "what the motors taught")
+    def __init__(self, state: State, begun: Mapping[Axis, MotorSettings]) -> None:
+        self._state = state
         self._begun = begun
         self._kept: dict[Axis, Motors] = {}
 
     def load(self) -> dict[Axis, Motors]:
-        """The figures of earlier runs; none without a file, or with a damaged one."""
-        nothing: dict[Axis, Mapping[str, Any]] = {}
-        tables = self._file.load(
-            _tables, absent=nothing, damaged=nothing, consequence="ignored, the motors are learnt anew"
-        )
+        """The figures of earlier runs; none without a file, or with damaged ones."""
         known: dict[Axis, Motors] = {}
-        for axis, table in tables.items():
+        for axis, table in self._state.load(LEARNT).items():
             settings = dict(self._begun[axis])
             try:
                 if table["begun"] == settings:
                     known[axis] = _motors(table, self._begun[axis])
                 else:
-                    log.info("%s: %s has been set up anew since; its motor is learnt anew", self._file.path, axis.value)
+                    log.info(
+                        "%s: %s has been set up anew since; its motor is learnt anew", self._state.path, axis.value
+                    )
             except (ValueError, KeyError, TypeError) as fault:
-                log.warning("%s: %s: ignored, its motor is learnt anew: %s", self._file.path, axis.value, damage(fault))
+                log.warning(
+                    "%s: %s: ignored, its motor is learnt anew: %s", self._state.path, axis.value, damage(fault)
+                )
         return known
 
     def note(self, learnt: Mapping[Axis, Motors]) -> None:
@@ -84,17 +94,12 @@ class LearntFile:
             for axis, motors in learnt.items()
         ):
             return
-        axes = {
-            axis.value: {"begun": dict(self._begun[axis]), "plus": asdict(plus), "minus": asdict(minus)}
+        tables = {
+            axis: {"begun": dict(self._begun[axis]), "plus": asdict(plus), "minus": asdict(minus)}
             for axis, (plus, minus) in learnt.items()
         }
-        if self._file.save({"axes": axes}):
+        if self._state.keep(LEARNT, tables):
             self._kept = dict(learnt)
-
-
-def _tables(content: dict[str, Any]) -> dict[Axis, Mapping[str, Any]]:
-    """The raw table of each axis in the file."""
-    return {axis: dict(content["axes"][axis.value]) for axis in Axis if axis.value in content["axes"]}
 
 
 def _motors(table: Mapping[str, Any], settings: MotorSettings) -> Motors:

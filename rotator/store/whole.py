@@ -7,8 +7,10 @@ Knows files, folders, and links that root must not follow. Does not know what a 
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from rotator.store.hanging import under_way
@@ -54,6 +56,34 @@ def write_block(path: Path, content: str) -> None:
             file.write(block)
             file.flush()
             os.fdatasync(file.fileno())
+
+
+def remove_whole(path: Path) -> None:
+    """Remove a file so that no power failure brings it back. Raises OSError."""
+    path = _followed(path)
+    folder = _opened(path.parent)
+    try:
+        with suppress(FileNotFoundError):
+            os.unlink(path.name, dir_fd=folder)
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+
+
+@contextmanager
+def alone(path: Path) -> Iterator[None]:
+    """Makes one load and one save a single step, because two programs may share this folder. Hold it only briefly."""
+    try:
+        folder = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    except OSError:  # no folder yet, or not readable: the save reports that
+        yield
+        return
+    try:
+        with suppress(OSError):  # a file system without locks
+            fcntl.flock(folder, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(folder)
 
 
 def _write_whole(path: Path, content: str | bytes, like: Path, mode: int) -> None:

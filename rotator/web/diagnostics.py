@@ -25,12 +25,10 @@ from rotator import __version__
 from rotator.config.model import Config
 from rotator.exchange.status import Status
 from rotator.protocols.status_object import as_object
-from rotator.store import compass, counts, knobs, relays
+from rotator.store.counts import FILE_NAME as COUNTS
 from rotator.web.redaction import REMOVED, Redaction, is_secret
 
 PACKAGES = ("aiohttp", "pydantic", "gpiod", "smbus2", "pyserial", "sgp4", "moteus", "spidev", "paho-mqtt")
-STATE_FILES = (counts.FILE_NAME, knobs.FILE_NAME, relays.FILE_NAME, compass.FILE_NAME)
-"""Files beside the state file, except the file of the pairings."""
 LARGEST_STATE = 100_000
 MACHINE_FILES = {
     "system": "/etc/os-release",
@@ -87,7 +85,7 @@ def diagnostics(known: Known, redaction: Redaction, read: Callable[[Path], str |
         "log.txt": "".join(redaction.text(f"{_moment(at_s)} {rank:7} {text}") + "\n" for at_s, rank, text in known.log),
         "wires.txt": "".join(redaction.text(line) + "\n" for line in known.wires),
     }
-    for path in (state, *(state.with_name(name) for name in STATE_FILES)):
+    for path in (state, state.with_name(COUNTS)):
         if (text := read(path)) is not None:
             texts[f"state/{path.name}"] = redaction.text(text)
     packed = io.BytesIO()

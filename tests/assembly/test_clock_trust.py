@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 
+from rotator.assembly.kept_files import build_state
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.assembly.tracking import build_tracking
@@ -16,7 +17,7 @@ def test_a_simulated_rotor_is_no_reason_to_trust_the_clock_with_a_server() -> No
     station = Station(config, time.monotonic, time.sleep)
     try:
         loop = ControlLoop(build_controller(config), station.rotor, time.monotonic, 0.05)
-        tracking = build_tracking(config, loop, build_mount(config))
+        tracking = build_tracking(config, loop, build_mount(config), build_state(config))
         assert tracking.tracker.clock_trusted()
         assert not tracking.clock_is_known()
         tracking.tracker.clock_is_right()

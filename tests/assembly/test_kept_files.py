@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.assembly.kept_files import build_tries_file
+from rotator.assembly.kept_files import build_state, build_tries
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.exchange.faults import FaultKind
@@ -32,10 +32,12 @@ def station(folder: Path, table: str = "azimuth", **changed: str) -> Config:
 
 def after(folder: Path, config: Config) -> dict[Axis, Tries]:
     """What the next run knows with this file, where the one before met a stop on both axes."""
-    before, now = build_tries_file(station(folder)), build_tries_file(config)
+    first = station(folder)
+    before = build_tries(first, build_state(first))
     assert before is not None
-    assert now is not None
     before.save({AZ: MET, EL: MET})
+    now = build_tries(config, build_state(config))
+    assert now is not None
     return now.load()
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
-from rotator.assembly.kept_files import build_learnt, build_modelled_file
+from rotator.assembly.kept_files import build_learnt, build_modelled_file, build_state
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.load import parse
@@ -49,7 +49,11 @@ class Run:
         self.station = Station(config, self.clock, self.clock.sleep, at_deg, add_alarm=self.clock.add_alarm)
         self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, PERIOD_S)
         self.autosave = Autosave(
-            self.loop, None, build_offsets(config), build_learnt(config), build_modelled_file(config)
+            self.loop,
+            None,
+            build_offsets(config),
+            build_learnt(config, build_state(config)),
+            build_modelled_file(config),
         )
         self.run(0.5)
 

@@ -3,27 +3,33 @@
 from __future__ import annotations
 
 import io
-import json
 import struct
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import hypothesis.strategies as st
 import pytest
 from hypothesis import given
 
-from rotator import store
-from rotator.backup.content import ABOUT, CHECKS, CONFIGURATION, FORM, BackupError, check, pack
+from hw.ports import Axis
+from rotator.backup.content import ABOUT, CHECKS, CONFIGURATION, FORM, STATE, BackupError, check, pack
 from rotator.backup.restore import BEFORE, FAILED, UNDER_WAY, WAITING, complete, stage
 from rotator.config.load import parse
-from rotator.store import compass, knobs, latch, learnt, priorities, relays, tries
+from rotator.exchange.status import Latch
+from rotator.store.compass import COMPASS
+from rotator.store.json_file import encode
+from rotator.store.knobs import KNOBS, FullScales
+from rotator.store.latch import LATCH
+from rotator.store.learnt import LEARNT
+from rotator.store.priorities import PRIORITIES, Changed
+from rotator.store.state import FORM as STATE_FORM
+from rotator.store.state import SPARED, State
 from rotator.store.whole import write_whole
 
 ABOUT_TEXT = '{"format": "rotator backup 1", "made": "2026-11-23T12:00:00Z", "program": "0.1.0"}'
-KNOBS = '{"format": "rotator knobs 1", "full_scales": {"azimuth": 0.93}}'
-CHANGED = {"ISS": {"priority": 3.0, "written": 1.0}}
-OTHER_KNOBS = KNOBS.replace("0.93", "0.71")
+EARLIER_KNOBS = '{"format": "rotator knobs 1", "full_scales": {"azimuth": 0.93}}'
+SCALES, OTHER_SCALES = {Axis.AZIMUTH: 0.93}, {Axis.AZIMUTH: 0.71}
 TOML = """# our mast
 [rotor]
 hardware = "sim"
@@ -41,11 +47,15 @@ class Station:
         folder.mkdir()
         self.folder = folder
         self.path = folder / "station.toml"
-        self.write(450, KNOBS)
+        self.write(450, SCALES)
 
-    def write(self, max_deg: int, kept: str) -> None:
+    @property
+    def state(self) -> State:
+        return State(self.folder / STATE)
+
+    def write(self, max_deg: int, scales: FullScales) -> None:
         self.path.write_text(TOML.format(max_deg, self.folder), encoding="utf-8")
-        (self.folder / knobs.FILE_NAME).write_text(kept, encoding="utf-8")
+        self.state.keep(KNOBS, scales)
 
     def packed(self) -> bytes:
         return pack(self.path, parse(self.path.read_text(), "test"), 0.0)
@@ -69,12 +79,16 @@ def zipped(*files: tuple[str, str | bytes]) -> bytes:
 
 
 def with_more(name: str) -> bytes:
-    return zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (name, KNOBS))
+    return zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (name, EARLIER_KNOBS))
+
+
+def with_state(**sections: object) -> bytes:
+    return zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (STATE, encode(STATE_FORM, sections)))
 
 
 def test_what_was_saved_comes_back_with_its_comments_and_what_was_there_is_kept(station: Station) -> None:
     kept, saved = station.everything(), station.packed()
-    station.write(360, OTHER_KNOBS)
+    station.write(360, OTHER_SCALES)
     changed = station.everything()
     stage(station.path, saved)
     assert station.everything() == changed, "the running box is left alone"
@@ -101,11 +115,48 @@ def test_another_pi_gets_the_whole_box(station: Station, tmp_path: Path) -> None
     assert new.read_text() == station.path.read_text()
 
 
-def test_counts_doubted_relays_and_pairings_stay_in_the_box(station: Station) -> None:
-    for name in ("counts.json", "relays.json", "paired.json"):
+def test_a_stop_and_doubted_relays_and_pairings_stay_in_the_box(station: Station) -> None:
+    for name in ("counts.json", "paired.json"):
         (station.folder / name).write_text("{}", encoding="utf-8")
-    with zipfile.ZipFile(io.BytesIO(station.packed())) as file:
-        assert set(file.namelist()) == {ABOUT, CONFIGURATION, knobs.FILE_NAME}
+    station.state.keep(LATCH, Latch("panel"))
+    saved = station.packed()
+    with zipfile.ZipFile(io.BytesIO(saved)) as file:
+        assert set(file.namelist()) == {ABOUT, CONFIGURATION, STATE}
+    assert set(check(saved).parts) == {"knobs"}
+    station.state.keep(LATCH, Latch("page#2", storm=True))
+    stage(station.path, saved)
+    assert complete(station.path, 0.0)
+    assert station.state.load(LATCH) == Latch("page#2", storm=True), "a backup ends no stop"
+    assert not set(SPARED) & set(CHECKS), "nor has it what memory may know better"
+
+
+def test_a_backup_of_an_earlier_version_had_a_file_for_each(station: Station) -> None:
+    assert check(with_more("knobs.json")).parts == {"knobs": KNOWN}
+    data = zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, station.path.read_text()), ("knobs.json", EARLIER_KNOBS))
+    station.write(360, OTHER_SCALES)
+    stage(station.path, data)
+    assert complete(station.path, 0.0)
+    assert station.state.load(KNOBS) == SCALES
+
+
+def test_a_restored_part_is_not_hidden_by_a_file_of_an_earlier_version(station: Station) -> None:
+    saved = station.packed()
+    (station.folder / "knobs.json").write_text(EARLIER_KNOBS.replace("0.93", "0.5"), encoding="utf-8")
+    (station.folder / "latch.json").write_text('{"format": "rotator latch 1", "by": "panel", "storm": false}')
+    stage(station.path, saved)
+    assert complete(station.path, 0.0)
+    assert station.state.load(KNOBS) == SCALES
+    assert station.state.load(LATCH) == Latch("panel")
+
+
+def test_the_state_of_a_later_version_is_not_overwritten(station: Station, caplog: pytest.LogCaptureFixture) -> None:
+    saved = station.packed()
+    station.state.path.write_text('{"format": "rotator state 3"}')
+    kept = station.everything()
+    stage(station.path, saved)
+    assert not complete(station.path, 0.0)
+    assert station.everything() == kept
+    assert "a later version" in caplog.text
 
 
 BAD: dict[str, tuple[bytes, str]] = {
@@ -123,13 +174,18 @@ BAD: dict[str, tuple[bytes, str]] = {
     "a mistake": (zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, "[azimuth]\nmax_deg = 9999\n")), "azimuth.max_deg"),
     "a later file": (zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, "format = 99\n")), "later version"),
     "later knobs": (
-        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (knobs.FILE_NAME, KNOBS.replace("knobs 1", "knobs 9"))),
+        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), ("knobs.json", EARLIER_KNOBS.replace("knobs 1", "knobs 9"))),
         "knobs.json of the backup: a later version",
     ),
     "wrong knobs": (
-        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (knobs.FILE_NAME, KNOBS.replace("0.93", "7"))),
+        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), ("knobs.json", EARLIER_KNOBS.replace("0.93", "7"))),
         "knobs.json of the backup: the azimuth knob's full scale is 7",
     ),
+    "wrong knobs in the state": (
+        with_state(knobs={"full_scales": {"azimuth": 7}}),
+        "state.json of the backup: the azimuth knob's full scale is 7",
+    ),
+    "a stop": (with_state(latch={"by": "", "storm": False}), "state.json of the backup: 'latch' belongs to no backup"),
     "wrong motors": (
         zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), ("state.json", '{"format": "rotator state 1", "axes": 3}')),
         "state.json of the backup",
@@ -184,10 +240,13 @@ def test_a_bomb_that_lies_about_its_size_is_not_unpacked() -> None:
         check(bytes(data))
 
 
+KNOWN = {"full_scales": {"azimuth": 0.93}}
+
+
 @given(st.data())
 def test_a_damaged_backup_is_refused_or_whole(data: st.DataObject) -> None:
     whole = bytearray(
-        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, "[azimuth]\nmax_deg = 400\n"), (knobs.FILE_NAME, KNOBS))
+        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, "[azimuth]\nmax_deg = 400\n"), ("knobs.json", EARLIER_KNOBS))
     )
     for _ in range(data.draw(st.integers(1, 3))):
         whole[data.draw(st.integers(0, len(whole) - 1))] = data.draw(st.integers(0, 255))
@@ -197,7 +256,7 @@ def test_a_damaged_backup_is_refused_or_whole(data: st.DataObject) -> None:
     except BackupError:
         return
     assert found.config.azimuth.max_deg == 400
-    assert found.parts.get(knobs.FILE_NAME, KNOBS) == KNOBS
+    assert found.parts.get("knobs", KNOWN) == KNOWN
 
 
 class PowerCut(BaseException):
@@ -209,7 +268,7 @@ def test_after_a_power_cut_at_any_step_the_next_start_has_the_new_box_and_the_ol
     for cut_at in range(5):
         station = Station(tmp_path / f"box{cut_at}")
         new, saved = station.everything(), station.packed()
-        station.write(360, OTHER_KNOBS)
+        station.write(360, OTHER_SCALES)
         old = station.everything()
         stage(station.path, saved)
         steps = iter(range(9))
@@ -227,13 +286,13 @@ def test_after_a_power_cut_at_any_step_the_next_start_has_the_new_box_and_the_ol
         assert station.everything() == new
         before = check((station.folder / f"station.toml{BEFORE}").read_bytes())
         assert before.text == old["station.toml"]
-        assert before.parts[knobs.FILE_NAME] == OTHER_KNOBS
-    assert outcomes == {0, 1, 2}, "the backup of what is there, the knobs, the configuration"
+        assert KNOBS.parse(before.parts["knobs"]) == OTHER_SCALES
+    assert outcomes == {0, 1, 2}, "the backup of what is there, the state, the configuration"
 
 
 def test_a_disk_that_is_full_leaves_the_old_box(station: Station, caplog: pytest.LogCaptureFixture) -> None:
     saved = station.packed()
-    station.write(360, OTHER_KNOBS)
+    station.write(360, OTHER_SCALES)
     old = station.everything()
     stage(station.path, saved)
     # A folder in the way of the new file: it cannot be written, as on a full disk.
@@ -250,22 +309,14 @@ def test_a_disk_that_is_full_leaves_the_old_box(station: Station, caplog: pytest
 
 def test_what_the_motors_taught_and_the_compass_found_go_along(station: Station) -> None:
     motors = {"speed_dps": 6.0, "coast_deg": 0.9}
-    taught = {"axes": {"azimuth": {"begun": {"speed_dps": 6.0}, "plus": motors, "minus": motors}}}
-    texts: dict[str, tuple[str, Callable[[str], object]]] = {
-        "state.json": (json.dumps({"format": learnt.FORM.today, **taught}), learnt.decode),
-        priorities.FILE_NAME: (json.dumps({"format": priorities.FORM.today, "changed": CHANGED}), priorities.decode),
-        compass.FILE_NAME: (compass.encode(bytes(compass.OFFSETS_COUNT)), compass.decode),
-    }
-    for name, (text, _) in texts.items():
-        (station.folder / name).write_text(text, encoding="utf-8")
-    found = check(station.packed())
-    for name, (text, decode) in texts.items():
-        assert decode(found.parts[name]) == decode(text)
+    state = station.state
+    state.note(LEARNT, {Axis.AZIMUTH: {"begun": {"speed_dps": 6.0}, "plus": motors, "minus": motors}})
+    state.note(PRIORITIES, {"ISS": Changed(3.0, 1.0)})
+    state.keep(COMPASS, bytes(22))
+    assert check(station.packed()).parts == state.sections
     assert FORM.today == "rotator backup 1"
 
 
-def test_no_file_of_a_backup_has_a_second_place_in_memory_that_would_win_over_it() -> None:
-    spared = {latch.FILE_NAME, relays.FILE_NAME, tries.FILE_NAME}
-    users = [path.stem for path in Path(store.__file__).parent.glob("*.py") if "SparedFile(" in path.read_text()]
-    assert {f"{name}.json" for name in users} - {"spared.json"} == spared
-    assert not spared & set(CHECKS)
+def test_what_is_damaged_is_left_out(station: Station) -> None:
+    station.state.keep(COMPASS, b"")
+    assert set(check(station.packed()).parts) == {"knobs"}

@@ -20,6 +20,7 @@ from rotator.control.sky.model_fit import SkyPoint
 from rotator.control.sky.pointing_model import PERFECT
 from rotator.orbits.sight import Sight, Target
 from rotator.orbits.targets import Fixed
+from rotator.store.state import State
 
 PERIOD_S = 0.05
 LONGEST_S = 1200.0
@@ -111,9 +112,9 @@ class Calibration:
 
 
 class NorthCalibration(Calibration):
-    """With the compass, read ten times a second. `corrections`: the file with the compass's own corrections."""
+    """With the compass, read ten times a second. `corrections`: what remembers its own corrections."""
 
-    def __init__(self, config: Config, *, corrections: Path | None = None, **rest: Any) -> None:
+    def __init__(self, config: Config, *, corrections: State | None = None, **rest: Any) -> None:
         self._corrections = corrections
         self._cycles = 0
         super().__init__(config, **rest)

@@ -15,15 +15,16 @@ from firmware_sim.rotors.rotor import SimRotor
 from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.ports import HardwareError
 from rotator.assembly.board import Board
-from rotator.assembly.calibration import compass_path, open_compass
+from rotator.assembly.calibration import open_compass
 from rotator.calibrating.compass import CompassReader
 from rotator.config.load import parse
-from rotator.store.compass import CompassFile
+from rotator.store.compass import KeptCompass
+from rotator.store.state import State
 
 CONFIG = parse('[compass]\nkind = "bno055"\naddress = 0x29\n', "test")
 
 
-def fitted(clock: Any, sleep: Any, file: CompassFile | None = None) -> tuple[CompassReader, SimRotor]:
+def fitted(clock: Any, sleep: Any, file: KeptCompass | None = None) -> tuple[CompassReader, SimRotor]:
     """A boom at 40°, raised by 20°, with a compass on it."""
     world = SimServoRotor(ServoAxisSpec(0, 40.0), ServoAxisSpec(1, 20.0), clock)
     world.wire_bno055(0x29, lambda azimuth_deg: azimuth_deg)
@@ -60,7 +61,7 @@ def test_a_missing_compass_is_a_problem_until_it_answers_again() -> None:
 
 def test_corrections_that_cannot_be_read_are_not_saved(tmp_path: Path) -> None:
     clock = SimClock()
-    reader, world = fitted(clock, clock.sleep, CompassFile(tmp_path / "compass.json"))
+    reader, world = fitted(clock, clock.sleep, KeptCompass(State(tmp_path / "state.json")))
     reader.read()
     world.inject("compass-gone")
     reader.request_save()
@@ -85,9 +86,3 @@ def test_a_file_without_a_compass() -> None:
             parse("", "test"),
             Board(SimServoRotor(ServoAxisSpec(0), ServoAxisSpec(1), clock), ExitStack(), clock, clock.sleep),
         )
-
-
-def test_what_a_simulated_compass_has_learnt_never_reaches_a_real_one() -> None:
-    assert compass_path(CONFIG) is None
-    real = parse('[rotor]\nhardware = "pi"\n[state]\npath = "/var/lib/rotator/state.json"\n', "test")
-    assert compass_path(real) == Path("/var/lib/rotator/compass.json")

@@ -17,7 +17,8 @@ from hw.ports import HardwareError
 from rotator.calibrating.results import AngleConfirmed, NorthFound
 from rotator.calibrating.saving import as_toml
 from rotator.config.load import parse
-from rotator.store.compass import CompassFile, encode
+from rotator.store.compass import KeptCompass
+from rotator.store.state import State
 
 ADDRESS = 0x28
 COMPASS = '[compass]\nkind = "bno055"\n'
@@ -171,23 +172,23 @@ def test_stop_stops_it_on_its_way_and_the_place_may_be_left_out(north_calibratio
 
 
 def test_what_it_has_learnt_is_kept_and_given_back(north_calibration: Any, tmp_path: Path) -> None:
-    corrections = tmp_path / "run" / "compass.json"
-    run = mounted(north_calibration(G5500 + TRUE + COMPASS, corrections=corrections), 12.0)
+    corrections = tmp_path / "run" / "state.json"
+    run = mounted(north_calibration(G5500 + TRUE + COMPASS, corrections=State(corrections)), 12.0)
     learnt(run)
     if not corrections.exists():  # the other parts of its calibration have taken longer than the magnetometer's
         assert "Not kept: only what is 3 in every part" in run.text
     run.say("y")
     assert f"What the compass has learnt is kept in {corrections}." in run.text
-    assert CompassFile(corrections).load() == LEARNT
+    assert KeptCompass(State(corrections)).load() == LEARNT
 
-    again = north_calibration(G5500 + TRUE + COMPASS, corrections=corrections)
+    again = north_calibration(G5500 + TRUE + COMPASS, corrections=State(corrections))
     assert "The compass has been given back what it had learnt." in again.text
 
 
 def test_a_file_that_cannot_be_written_is_reported(north_calibration: Any, tmp_path: Path) -> None:
     tmp_path.joinpath("run").write_text("")
     run = learnt(
-        mounted(north_calibration(G5500 + TRUE + COMPASS, corrections=tmp_path / "run" / "compass.json"), 12.0)
+        mounted(north_calibration(G5500 + TRUE + COMPASS, corrections=State(tmp_path / "run" / "state.json")), 12.0)
     )
     run.say("y")
     assert "what the compass learnt cannot be kept" in run.text
@@ -196,9 +197,9 @@ def test_a_file_that_cannot_be_written_is_reported(north_calibration: Any, tmp_p
 
 
 def test_a_file_of_something_else_is_no_harm(north_calibration: Any, tmp_path: Path) -> None:
-    corrections = tmp_path / "compass.json"
-    corrections.write_text(encode(bytes(22)).replace("compass", "state"))
-    run = mounted(north_calibration(G5500 + TRUE + COMPASS, corrections=corrections), 12.0)
+    corrections = tmp_path / "state.json"
+    corrections.write_text('{"format": "rotator counts 1"}')
+    run = mounted(north_calibration(G5500 + TRUE + COMPASS, corrections=State(corrections)), 12.0)
     assert "given back" not in run.text
     assert not run.guide.ended
 

@@ -19,7 +19,8 @@ from rotator.calibrating.saving import as_toml
 from rotator.config.load import load, parse
 from rotator.config.places import console_path
 from rotator.exchange.status import Latch
-from rotator.store.latch import FILE_NAME, LatchFile
+from rotator.store.latch import KeptLatch
+from rotator.store.state import State
 from tests.refusing import refuse
 
 LIMIT_S = 60.0
@@ -183,7 +184,7 @@ def kept_station(folder: Path) -> Path:
 @pytest.mark.parametrize("storm", [False, True])
 def test_nothing_turns_after_a_stop_of_the_box_that_is_not_released(start: Start, tmp_path: Path, storm: bool) -> None:
     path = kept_station(tmp_path)
-    LatchFile(tmp_path / FILE_NAME).save(Latch("panel", storm=storm))
+    KeptLatch(State(tmp_path / "state.json")).save(Latch("panel", storm=storm))
     for tasks in ([], ["north"]):
         text, code = finish(start("--config", str(path), *tasks))
         assert code == 1
@@ -198,7 +199,7 @@ def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tm
     read_until(process, "> Press r")
     subprocess.run([sys.executable, "-m", "rotator", "stop", "--config", str(path)], check=True, timeout=LIMIT_S)
     process.communicate(timeout=LIMIT_S)
-    stopped = LatchFile(tmp_path / FILE_NAME).load()
+    stopped = KeptLatch(State(tmp_path / "state.json")).load()
     assert stopped is not None
     assert stopped.by.startswith("console")
     text, code = finish(start("--config", str(path), "azimuth"))
@@ -215,8 +216,8 @@ def memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_nothing_turns_after_a_stop_that_only_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
-    blocked = refuse(tmp_path / FILE_NAME)
-    LatchFile(tmp_path / FILE_NAME, memory).save(Latch("panel"))
+    blocked = refuse(tmp_path / "state.json")
+    KeptLatch(State(tmp_path / "state.json", memory)).save(Latch("panel"))
     blocked.rmdir()
     text, code = finish(start("--config", str(kept_station(tmp_path))))
     assert code == 1
@@ -225,9 +226,9 @@ def test_nothing_turns_after_a_stop_that_only_memory_has(start: Start, tmp_path:
 
 def test_a_stop_during_a_calibration_is_newer_than_what_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
     path = kept_station(tmp_path)
-    LatchFile(tmp_path / FILE_NAME).save(Latch("panel"))
-    blocked = refuse(tmp_path / FILE_NAME)
-    released = LatchFile(tmp_path / FILE_NAME, memory)
+    KeptLatch(State(tmp_path / "state.json")).save(Latch("panel"))
+    blocked = refuse(tmp_path / "state.json")
+    released = KeptLatch(State(tmp_path / "state.json", memory))
     released.load()
     released.save(None)
     blocked.rmdir()
@@ -236,7 +237,7 @@ def test_a_stop_during_a_calibration_is_newer_than_what_memory_has(start: Start,
     subprocess.run([sys.executable, "-m", "rotator", "stop", "--config", str(path)], check=True, timeout=LIMIT_S)
     process.communicate(timeout=LIMIT_S)
     for folder in (None, memory):
-        stopped = LatchFile(tmp_path / FILE_NAME, folder).load()
+        stopped = KeptLatch(State(tmp_path / "state.json", folder)).load()
         assert stopped is not None
         assert stopped.by.startswith("console")
 
@@ -245,13 +246,13 @@ def test_a_stop_that_is_ended_where_the_card_refuses_stays_ended(
     start_in_terminal: Callable[..., Any], tmp_path: Path, memory: Path
 ) -> None:
     path = kept_station(tmp_path)
-    LatchFile(tmp_path / FILE_NAME).save(Latch("keyboard"))
-    refuse(tmp_path / FILE_NAME)
+    KeptLatch(State(tmp_path / "state.json")).save(Latch("keyboard"))
+    refuse(tmp_path / "state.json")
     calibration = start_in_terminal("calibrate", "--config", path)
     calibration.until("Is the mast free of people, and shall the stop end")
     calibration.press("y\r")
     calibration.until("Setting up the azimuth")
-    assert LatchFile(tmp_path / FILE_NAME, memory).load() is None
+    assert KeptLatch(State(tmp_path / "state.json", memory)).load() is None
     calibration.stop()
 
 
@@ -260,14 +261,13 @@ def test_at_a_terminal_a_person_says_that_the_mast_is_free(
     start_in_terminal: Callable[..., Any], tmp_path: Path, answer: str, left: bool
 ) -> None:
     path = kept_station(tmp_path)
-    kept = LatchFile(tmp_path / FILE_NAME)
-    kept.save(Latch("keyboard"))
+    KeptLatch(State(tmp_path / "state.json")).save(Latch("keyboard"))
     calibration = start_in_terminal("calibrate", "--config", path)
     asked = calibration.until("Is the mast free of people, and shall the stop end")
     assert "stopped by the keyboard before the restart: nothing moves until resume" in " ".join(asked.split())
     calibration.press(f"{answer}\r")
     calibration.until("Setting up the azimuth" if not left else "the stop stays: nothing was done")
-    assert (kept.load() is not None) is left
+    assert (KeptLatch(State(tmp_path / "state.json")).load() is not None) is left
     if left:
         calibration.ends()
     else:

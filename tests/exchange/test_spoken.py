@@ -42,7 +42,7 @@ SAID = {
     "mqtt": ("Home Assistant (MQTT)", "MQTT"),
     "track": ("the box itself", "THE BOX"),
     "rotctld#4": ("rotctld", "ROTCTLD"),
-    "the damaged file latch.json": ("the damaged file latch.json", "DAMAGED FILE LATCH.JSON"),
+    "the damaged state file": ("the damaged state file", "DAMAGED STATE FILE"),
     "Anna": ("Anna", "ANNA"),
 }
 

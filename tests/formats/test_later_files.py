@@ -17,18 +17,11 @@ from hw.ports import Axis
 from rotator.config import migrations
 from rotator.config.load import ConfigError, load
 from rotator.config.save import save_table
-from rotator.exchange.motor import ALL_OPEN, Motor, Trust
-from rotator.store.compass import CompassFile
 from rotator.store.counts import LOST, CountsFile
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, decode
-from rotator.store.knobs import KnobsFile
-from rotator.store.latch import DAMAGED, LatchFile
-from rotator.store.learnt import LearntFile
-from rotator.store.relays import UNKNOWN, RelaysFile
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
-BEGUN = {axis: {"speed_dps": 6.0} for axis in Axis}
 CAMS = {axis: {"spacing_deg": 5.0} for axis in Axis}
 
 
@@ -49,16 +42,6 @@ def assert_told(caplog: pytest.LogCaptureFixture, path: Path) -> None:
     assert "update the program, or move the file away. The file stays as it is" in told[0]
 
 
-def test_what_the_motors_taught_is_learnt_anew_and_not_kept(later: Path, caplog: pytest.LogCaptureFixture) -> None:
-    before = write_later(later, "state")
-    file = LearntFile(later, BEGUN)
-    assert file.load() == {}
-    motor = Motor(5.8, 1.0)
-    file.save({AZ: (motor, motor)}, ending=True)
-    assert later.read_bytes() == before
-    assert_told(caplog, later)
-
-
 def test_a_count_is_lost_and_the_axis_can_be_homed(later: Path, caplog: pytest.LogCaptureFixture) -> None:
     before = write_later(later, "counts")
     file = CountsFile(later, CAMS)
@@ -69,52 +52,6 @@ def test_a_count_is_lost_and_the_axis_can_be_homed(later: Path, caplog: pytest.L
     assert "a later version" in file.trouble
     assert later.read_bytes() == before
     assert_told(caplog, later)
-
-
-def test_every_relay_is_looked_at_before_one_closes(later: Path, caplog: pytest.LogCaptureFixture) -> None:
-    before = write_later(later, "relays")
-    file = RelaysFile(later)
-    assert file.load() == {AZ: UNKNOWN, EL: UNKNOWN}
-    file.save({AZ: (Trust.OPEN, Trust.WELDED), EL: ALL_OPEN}, ending=True)
-    assert later.read_bytes() == before
-    assert_told(caplog, later)
-
-
-def test_a_stop_may_be_latched_there_so_the_box_begins_stopped(later: Path, caplog: pytest.LogCaptureFixture) -> None:
-    before = write_later(later, "latch")
-    file = LatchFile(later)
-    assert file.load() == DAMAGED
-    assert not file.save(None)
-    assert later.read_bytes() == before
-    assert_told(caplog, later)
-
-
-def test_knobs_and_compass_start_anew(later: Path, caplog: pytest.LogCaptureFixture) -> None:
-    before = write_later(later, "knobs")
-    knobs = KnobsFile(later)
-    assert knobs.load() == {}
-    knobs.save({AZ: 0.9})
-    assert later.read_bytes() == before
-    assert_told(caplog, later)
-    caplog.clear()
-    before = write_later(later, "compass")
-    compass = CompassFile(later)
-    assert compass.load() is None
-    compass.save(bytes(range(22)))
-    assert "a later version" in compass.trouble
-    assert later.read_bytes() == before
-    assert_told(caplog, later)
-
-
-def test_once_it_is_moved_away_the_box_keeps_its_own_again(later: Path) -> None:
-    write_later(later, "knobs")
-    knobs = KnobsFile(later)
-    knobs.load()
-    later.rename(later.with_suffix(".kept"))
-    again = KnobsFile(later)
-    assert again.load() == {}
-    again.save({AZ: 0.9})
-    assert KnobsFile(later).load() == {AZ: 0.9}
 
 
 # --- the configuration

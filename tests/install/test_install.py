@@ -151,7 +151,7 @@ def test_what_was_kept_is_taken_up_again(installed: Root) -> None:
     installed.shell(f"echo '# mine' >>{CONFIG}; touch /var/lib/rotator/state.json").check()
     installed.shell(REFUSED_BY_THE_CARD).check()
     installed.run("/src/install.sh", "--remove", "--keep", "--yes").check()
-    assert installed.at("/run/rotator/latch.json").exists(), "it is newer than what the card has"
+    assert installed.at("/run/rotator/state.json").exists(), "it is newer than what the card has"
     assert installed.run("stat", "-c", "%U", CONFIG, "/var/lib/rotator/state.json").lines == ["root", "root"]
     assert installed.run("getent", "passwd", "rotator").code != 0
     installed.run("/src/install.sh", "--yes").check()

@@ -21,7 +21,7 @@ APTS_OWN = ("/var/lib/apt/", "/var/lib/dpkg/")
 THE_GROUPS = {"/etc/group", "/etc/gshadow"}
 """The groups gpio, i2c and spi stay: by then they may own what is not ours."""
 DEB_IMPORTS = "/usr/lib/gs232-rotator/bin/python -c 'import gpiod, pydantic_core, wrapt, moteus; gpiod.request_lines'"
-REFUSED_BY_THE_CARD = "mkdir -p /run/rotator && echo '{}' >/run/rotator/latch.json"
+REFUSED_BY_THE_CARD = "mkdir -p /run/rotator && echo '{}' >/run/rotator/state.json"
 """What a box leaves in memory whose card is full."""
 IMPORTS = "/opt/rotator/current/bin/python -c 'import gpiod, pydantic_core; gpiod.request_lines'"
 

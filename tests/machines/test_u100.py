@@ -157,7 +157,7 @@ def test_a_day_with_the_pc(shack: Callable[..., Shack], chance: random.Random) -
     pc.close()
     ended_well(machine)
     assert standing(machine) == ["known", "known"]
-    assert "azimuth" in json.loads(Path(machine.folder, "state.json").read_text())["axes"]
+    assert "azimuth" in json.loads(Path(machine.folder, "state.json").read_text())["learnt"]["axes"]
     begin(machine)
     pc = Terminal(machine.ptys[0])
     obeys(machine, pc, somewhere(chance))

@@ -18,7 +18,7 @@ import tomlkit
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import AngleSource, Axis
-from rotator.assembly.kept_files import build_learnt
+from rotator.assembly.kept_files import build_learnt, build_state
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
@@ -128,7 +128,7 @@ class Box:
         self.world: SimRotor = self.station.world
         self.rotor = self.station.rotor
         self.period_s = 1 / self.config.control.rate_hz
-        learnt = build_learnt(self.config).load() if learns else None
+        learnt = build_learnt(self.config, build_state(self.config)).load() if learns else None
         self.loop = ControlLoop(build_controller(self.config, learnt), self.rotor, self.clock, self.period_s)
         self._shift = build_offsets(self.config)
         self._next_s = self.clock()

@@ -93,7 +93,7 @@ def test_a_proper_end_is_without_a_word_and_keeps_what_was_found_out(
     learnt = app.loop.status.azimuth.learnt
     assert not counting or learnt != begun_with
     if learnt is not None and learnt != begun_with:
-        kept = json.loads((tmp_path / "state.json").read_text())["axes"]["azimuth"]
+        kept = json.loads((tmp_path / "state.json").read_text())["learnt"]["axes"]["azimuth"]
         assert (kept["plus"], kept["minus"]) == (asdict(learnt[0]), asdict(learnt[1]))
     if counting:
         place = CountsFile(file, cams).load()[Axis.AZIMUTH]

@@ -157,5 +157,5 @@ def test_what_motors_taught_and_contacts_counted_is_kept(tmp_path: Path, boxes: 
     place = CountsFile(counts, cams).load()[Axis.AZIMUTH]
     assert place.standing is Standing.KNOWN
     assert place.angle_deg == pytest.approx(TARGET_DEG, abs=8.0)
-    learnt = json.loads((tmp_path / "state.json").read_text())["axes"]["azimuth"]["plus"]
+    learnt = json.loads((tmp_path / "state.json").read_text())["learnt"]["axes"]["azimuth"]["plus"]
     assert learnt["speed_dps"] != 25.0

@@ -9,7 +9,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
-from rotator.assembly.kept_files import build_learnt
+from rotator.assembly.kept_files import build_learnt, build_state
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.load import load
@@ -44,7 +44,7 @@ class Running:
         config = load(path)
         self.clock = SimClock()
         station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        learnt = build_learnt(config)
+        learnt = build_learnt(config, build_state(config))
         controller = build_controller(config, learnt.load())
         self.loop = ControlLoop(controller, station.rotor, self.clock, 0.05)
         self.autosave = Autosave(self.loop, keep_in, build_offsets(config), learnt)

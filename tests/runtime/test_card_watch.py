@@ -21,23 +21,19 @@ from rotator.exchange.status import Latch
 from rotator.protocols.console_session import report
 from rotator.runtime.card_watch import CardWatch
 from rotator.runtime.keeping import Keeping
-from rotator.runtime.latch_thread import LatchThread
 from rotator.runtime.loop import ControlLoop
+from rotator.runtime.state_thread import StateThread
 from rotator.store.hanging import HANGS_S, writes
-from rotator.store.knobs import KnobsFile
-from rotator.store.latch import LatchFile
-from rotator.store.relays import RelaysFile
-from rotator.store.tries import NOTHING, TriesFile
+from rotator.store.latch import KeptLatch
+from rotator.store.relays import RELAYS
+from rotator.store.state import State
 from rotator.views.lcd import rows
 from tests.refusing import hanging, refuse, wait_until
 
 CYCLE_S = 0.05
 LINK, PERSON = Source("gs232b", 1), Source("console", 1)
 FILES: dict[str, Callable[[Path], object]] = {
-    "latch": lambda path: LatchFile(path).save(Latch("console#1")),
-    "relays": lambda path: RelaysFile(path).save({Axis.AZIMUTH: ALL_OPEN}),
-    "tries": lambda path: TriesFile(path).save(NOTHING),
-    "knobs": lambda path: KnobsFile(path).save({Axis.AZIMUTH: 0.9}),
+    "state": lambda path: State(path).keep(RELAYS, {Axis.AZIMUTH: ALL_OPEN}),
     "configuration": lambda path: _replaced(path.with_name("other")),
 }
 
@@ -87,22 +83,25 @@ def test_a_write_that_hangs_is_said_after_seconds_for_as_long_as_it_lasts(tmp_pa
 
 
 def test_a_refusal_is_said_at_once(tmp_path: Path) -> None:
-    file = RelaysFile(tmp_path / "relays.json")
-    refuse(tmp_path / "relays.json")
-    box = Box(CardWatch(lambda: ["", file.trouble]))
-    file.save({Axis.AZIMUTH: ALL_OPEN})
+    state = State(tmp_path / "state.json")
+    refuse(state.path)
+    box = Box(CardWatch(lambda: ["", state.trouble]))
+    state.keep(RELAYS, {Axis.AZIMUTH: ALL_OPEN})
     box.run(CYCLE_S)
     assert "CARD REFUSES" in box.displayed
     assert "directory" in " ".join(report(box.loop.status))
 
 
 def test_while_the_card_hangs_the_antenna_moves_and_stops_and_a_stop_is_in_memory(tmp_path: Path) -> None:
-    path, memory = tmp_path / "latch.json", tmp_path / "memory"
-    file = LatchFile(path, memory)
-    latch: LatchThread[Latch | None] = LatchThread(file.save, None, spare=file.spare)
-    box = Box(keeping=Keeping(latch=latch.note))
-    latch.start()
+    path, memory = tmp_path / "state.json", tmp_path / "memory"
+    state = State(path, memory)
+    box, thread = Box(keeping=Keeping(latch=KeptLatch(state).note)), StateThread(state)
+
+    def left() -> Latch | None:
+        return KeptLatch(State(path, memory)).load()
+
     with hanging(path):
+        thread.start()
         for _ in range(2):
             box.loop.post(LINK, Aim(200.0, 20.0))
             box.run(2.0)
@@ -110,12 +109,12 @@ def test_while_the_card_hangs_the_antenna_moves_and_stops_and_a_stop_is_in_memor
             box.loop.post(PERSON, Stop(latch=True))
             box.loop.act()
             assert not box.turns
-            wait_until(lambda: LatchFile(path, memory).load())
+            wait_until(left)
             box.loop.post(PERSON, Release())
             box.run(2.0)
-            wait_until(lambda: LatchFile(path, memory).load() is None)
+            wait_until(lambda: left() is None)
         box.loop.post(PERSON, Stop(latch=True))
         box.loop.act()
-        wait_until(lambda: LatchFile(path, memory).load())
-    latch.close()
-    assert LatchFile(path).load()
+        wait_until(left)
+    thread.close()
+    assert KeptLatch(State(path)).load()

@@ -16,7 +16,7 @@ import pytest
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, AngleSource, Axis, CharacterDisplay, Direction, HardwareError
 from hw.safety.guard import GUARD_THREAD
-from rotator.assembly.kept_files import build_tries_file
+from rotator.assembly.kept_files import build_state, build_tries
 from rotator.assembly.station import open_station
 from rotator.box.app import App
 from rotator.config.load import parse, shipped
@@ -133,7 +133,7 @@ def test_an_axis_that_is_set_up_on_the_page_is_released_and_the_other_is_not(tmp
     text = f'[state]\npath = "{tmp_path}/state.json"\n[sim]\nworld = "{tmp_path}/world"\n'
     tried = Tries(2, FaultKind.END_STOP, (440.0, None), (440.0, None))
     config = parse(text, "a test's file")
-    kept = build_tries_file(config)
+    kept = build_tries(config, build_state(config))
     assert kept is not None
     kept.save(dict.fromkeys(Axis, tried))
     anew, other = Anew(), next(each for each in Axis if each is not axis)
@@ -152,7 +152,9 @@ def test_an_axis_that_is_set_up_on_the_page_is_released_and_the_other_is_not(tmp
         await task
 
     asyncio.run(set_up())
-    assert kept.load() == {each: NO_TRIES if each is axis else tried for each in Axis}
+    again = build_tries(config, build_state(config))
+    assert again is not None
+    assert again.load() == {each: NO_TRIES if each is axis else tried for each in Axis}
 
 
 # --- running

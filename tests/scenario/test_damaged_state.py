@@ -14,10 +14,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Direction
-from rotator.assembly.kept_files import build_learnt
+from rotator.assembly.kept_files import build_learnt, build_state
 from rotator.exchange.motor import Motor
-from rotator.store import counts, learnt
-from rotator.store.json_file import JsonFile
+from rotator.exchange.status import Latch
+from rotator.store import counts
+from rotator.store.compass import COMPASS, OFFSETS_COUNT
+from rotator.store.knobs import KNOBS, LEAST, MOST
+from rotator.store.latch import LATCH
+from rotator.store.learnt import LEARNT
+from rotator.store.state import State
 from tests.rotors.rig import AZ, EL, KINDS, Box, Kind, configured
 from tests.search import examples
 
@@ -79,9 +84,10 @@ def damaged(draw: st.DrawFn, text: str) -> bytes:
 
 def whole_state(kind: Kind, folder: Path) -> str:
     """The state file as the box itself writes it, with figures that differ from the configured ones."""
+    (folder / "state.json").unlink(missing_ok=True)
     config = configured(kind.profile, state={"path": str(folder / "state.json")})
     motor = Motor(config.azimuth.speed_dps * 0.9, 0.4)
-    build_learnt(config).save(dict.fromkeys((AZ, EL), (motor, motor)), ending=True)
+    build_learnt(config, build_state(config)).save(dict.fromkeys((AZ, EL), (motor, motor)), ending=True)
     return (folder / "state.json").read_text()
 
 
@@ -141,6 +147,24 @@ def test_any_counts(tmp_path: Path, data: st.DataObject) -> None:
         box.close()
 
 
+@SLOW
+@given(data=st.data())
+def test_any_other_section(tmp_path: Path, data: st.DataObject) -> None:
+    path = tmp_path / "sections.json"
+    path.unlink(missing_ok=True)
+    state = State(path)
+    state.note(LATCH, Latch("panel"))
+    state.note(KNOBS, {AZ: 0.97, EL: 0.94})
+    state.keep(COMPASS, bytes(range(OFFSETS_COUNT)))
+    path.write_bytes(data.draw(damaged(path.read_text())))
+    found = State(path)
+    assert all(LEAST <= share <= MOST for share in found.load(KNOBS).values())
+    offsets = found.load(COMPASS)
+    assert offsets is None or len(offsets) == OFFSETS_COUNT
+    latch = found.load(LATCH)
+    assert latch is None or latch.by
+
+
 def test_a_damaged_file_is_named_in_the_log_and_replaced_as_a_whole(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -150,5 +174,5 @@ def test_a_damaged_file_is_named_in_the_log_and_replaced_as_a_whole(
     box = Box(G5500, learns=True, state={"path": str(path)})
     box.close()
     assert f"{path}: azimuth: ignored, its motor is learnt anew: a speed in °/s is 1000.0" in caplog.text
-    assert JsonFile(path, learnt.FORM, "").save({"axes": {}})
+    assert State(path).keep(LEARNT, {})
     assert "1000" not in path.read_text()

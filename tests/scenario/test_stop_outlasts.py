@@ -1,7 +1,7 @@
 """A latched stop and a storm park outlast the program: killed in any moment, the box begins stopped, until `resume`.
 
 The whole control loop on simulated chips. The rotor outlives the program, and so does its folder. The file is written
-at once here; `tests/runtime/test_latch_thread.py` has the thread.
+at once here; `tests/runtime/test_state_thread.py` has the thread.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from rotator.exchange.sources import Source
 from rotator.exchange.spoken import held_by, spoken
 from rotator.runtime.keeping import Keeping
 from rotator.runtime.loop import ControlLoop
-from rotator.store.latch import LatchFile
+from rotator.store.latch import KeptLatch
+from rotator.store.state import State
 from rotator.views import lcd
 from rotator.views.plain_lines import line
 from rotator.views.words import headline
@@ -37,7 +38,7 @@ class Run:
     def __init__(self, folder: Path, before: Run | None = None) -> None:
         self.clock: SimClock = before.clock if before else SimClock()
         config = Config()
-        file = LatchFile(folder / "latch.json")
+        kept = KeptLatch(State(folder / "state.json"))
         self._alive = True
         if before:
             before._alive = False
@@ -53,8 +54,8 @@ class Run:
         )
         assert self.station.world is not None
         self.world: SimRotor = self.station.world
-        controller = build_controller(config, latch=file.load())
-        self.loop = ControlLoop(controller, self.station.rotor, self.clock, 0.05, keeping=Keeping(latch=file.save))
+        controller = build_controller(config, latch=kept.load())
+        self.loop = ControlLoop(controller, self.station.rotor, self.clock, 0.05, keeping=Keeping(latch=kept.save))
         self.wait(LOOK_S)
 
     def wait(self, seconds: float) -> None:
@@ -123,9 +124,9 @@ def test_every_display_names_who_stopped_it(tmp_path: Path) -> None:
 
 
 def test_a_damaged_file_stops_the_box_and_says_so(tmp_path: Path) -> None:
-    (tmp_path / "latch.json").write_bytes(b"\0" * 60)
+    (tmp_path / "state.json").write_bytes(b"\0" * 60)
     run = Run(tmp_path)
-    assert headline(run.loop.status)[0] == "STOPPED by the damaged file latch.json"
+    assert headline(run.loop.status)[0] == "STOPPED by the damaged state file"
     assert not run.moves(Aim(200.0, 60.0))
     run.order(Release(), PANEL)
     assert run.moves(Aim(200.0, 60.0))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import logging
-import os
 from pathlib import Path
 
 import pytest
 
 from hw.ports import Axis
 from rotator.exchange.motor import Motor
-from rotator.store.learnt import LearntFile, Motors
+from rotator.store.learnt import KeptMotors, Motors
+from rotator.store.state import State
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 BEGUN = {AZ: {"hardware": "pi", "speed_dps": 6.0, "coast_s": 0.17}, EL: {"hardware": "pi", "speed_dps": 2.7}}
@@ -29,9 +29,9 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "run" / "state.json"
 
 
-def kept(path: Path) -> LearntFile:
+def kept(path: Path) -> KeptMotors:
     """A file with BOTH in it."""
-    file = LearntFile(path, BEGUN)
+    file = KeptMotors(State(path), BEGUN)
     file.save(BOTH, ending=True)
     file.note(BOTH)
     return file
@@ -39,38 +39,13 @@ def kept(path: Path) -> LearntFile:
 
 def test_there_and_back(path: Path) -> None:
     kept(path)
-    assert LearntFile(path, BEGUN).load() == BOTH
+    assert KeptMotors(State(path), BEGUN).load() == BOTH
     assert [each.name for each in path.parent.iterdir()] == ["state.json"]
 
 
 def test_no_file_says_nothing(path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    assert LearntFile(path, BEGUN).load() == {}
+    assert KeptMotors(State(path), BEGUN).load() == {}
     assert not caplog.records
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        "\x00" * 200,
-        '{"format": "rotator state 1", "axes": {"azim',
-        "[]",
-        "null",
-        "{}",
-        '{"format": "something else", "axes": {}}',
-        '{"format": "rotator state 1"}',
-        '{"format": "rotator state 1", "axes": {"azimuth": {}}}',
-        '{"format": "rotator state 1", "axes": {"azimuth": 5}}',
-        '{"format": "rotator state 1", "axes": []}',
-        "[" * 100_000,
-    ],
-    ids=lambda text: text[:40] or "empty",
-)
-def test_a_damaged_or_foreign_file_is_ignored_and_said(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
-    path.parent.mkdir()
-    path.write_text(text)
-    assert LearntFile(path, BEGUN).load() == {}
-    assert text == '{"format": "rotator state 1", "axes": []}' or "learnt anew" in caplog.text
 
 
 @pytest.mark.parametrize(
@@ -91,48 +66,30 @@ def test_a_damaged_or_foreign_file_is_ignored_and_said(path: Path, text: str, ca
 def test_figures_of_no_motor_are_ignored(path: Path, key: str, value: object, caplog: pytest.LogCaptureFixture) -> None:
     kept(path)
     whole = json.loads(path.read_text())
-    whole["axes"]["azimuth"]["minus"][key] = value
+    whole["learnt"]["axes"]["azimuth"]["minus"][key] = value
     path.write_text(json.dumps(whole))
-    assert LearntFile(path, BEGUN).load() == {EL: BOTH[EL]}
+    assert KeptMotors(State(path), BEGUN).load() == {EL: BOTH[EL]}
     assert "azimuth: ignored, its motor is learnt anew" in caplog.text
     assert len(caplog.text) < 500, "a number of 400 digits is said in a few"
 
 
 def test_a_motor_is_at_most_four_times_as_fast_as_configured(path: Path) -> None:
     fast = BOTH | {AZ: motors(23.8)}
-    LearntFile(path, BEGUN).save(fast, ending=True)
-    assert LearntFile(path, BEGUN).load() == fast
-
-
-def test_a_pipe_in_place_of_the_file_does_not_keep_the_start_waiting(
-    path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    path.parent.mkdir()
-    os.mkfifo(path)
-    assert LearntFile(path, BEGUN).load() == {}
-    assert "it is no file" in caplog.text
+    KeptMotors(State(path), BEGUN).save(fast, ending=True)
+    assert KeptMotors(State(path), BEGUN).load() == fast
 
 
 def test_not_a_number_is_no_motor(path: Path) -> None:
     kept(path)
     path.write_text(path.read_text().replace("5.6,", "NaN,"))
-    assert LearntFile(path, BEGUN).load() == {EL: BOTH[EL]}
+    assert KeptMotors(State(path), BEGUN).load() == {EL: BOTH[EL]}
 
 
 def test_another_description_of_the_motor_makes_it_another_motor(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     caplog.set_level(logging.INFO)
     kept(path)
-    assert LearntFile(path, BEGUN | {AZ: {"hardware": "sim"}}).load() == {EL: BOTH[EL]}
+    assert KeptMotors(State(path), BEGUN | {AZ: {"hardware": "sim"}}).load() == {EL: BOTH[EL]}
     assert "azimuth has been set up anew" in caplog.text
-
-
-def test_power_lost_in_the_middle_of_writing(path: Path) -> None:
-    file = kept(path)
-    path.with_name("state.json.new").write_text('{"format": "rota')
-    assert LearntFile(path, BEGUN).load() == BOTH
-    later = BOTH | {AZ: motors(5.0)}
-    file.save(later, ending=True)
-    assert LearntFile(path, BEGUN).load() == later
 
 
 @pytest.mark.parametrize(
@@ -154,7 +111,7 @@ def test_only_large_changes_are_written_before_the_end(path: Path, azimuth: Moto
 
 
 def test_a_coast_of_next_to_nothing_is_not_written_for_every_thousandth(path: Path) -> None:
-    file = LearntFile(path, BEGUN)
+    file = KeptMotors(State(path), BEGUN)
     file.note({AZ: motors(5.6, 0.0)})
     file.save({AZ: motors(5.6, 0.009)}, ending=False)
     assert not path.exists()
@@ -167,34 +124,3 @@ def test_at_the_end_any_news_is_written_and_no_news_is_not(path: Path) -> None:
     assert not path.exists()
     file.save(BOTH | {AZ: motors(5.61)}, ending=True)
     assert path.exists()
-
-
-def test_where_nothing_can_be_written_it_is_said_once(path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    # A file in place of its folder: even root cannot write there.
-    path.parent.write_text("")
-    file = LearntFile(path, BEGUN)
-    for _ in range(3):
-        file.save(BOTH, ending=True)
-    assert caplog.text.count("cannot be kept") == 1
-    assert LearntFile(path, BEGUN).load() == {}
-
-
-def test_a_read_only_folder_is_a_log_line(path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    path.parent.mkdir()
-    path.parent.chmod(0o500)
-    try:
-        if _writable(path.parent):
-            pytest.skip("root writes everywhere")
-        LearntFile(path, BEGUN).save(BOTH, ending=True)
-    finally:
-        path.parent.chmod(0o700)
-    assert "cannot be kept" in caplog.text
-    assert not path.exists()
-
-
-def _writable(folder: Path) -> bool:
-    try:
-        (folder / "probe").write_text("")
-    except OSError:
-        return False
-    return True

@@ -16,6 +16,7 @@ from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.timed_table import TimedTable
 from rotator.store.priorities import Priorities
+from rotator.store.state import State
 from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
 from rotator.tracking.listener import StreamListener
@@ -81,7 +82,7 @@ def test_the_thread_outlives_a_mistake_of_the_program(tmp_path: Path, caplog: py
         planner=ProcessPlanner(),
         reader=FileReader(),
         clock=SystemClock(),
-        priorities=Priorities(tmp_path / "priorities.json"),
+        priorities=Priorities(State(tmp_path / "state.json")),
         steady_s=box.clock,
     )
     thread.start()

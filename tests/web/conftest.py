@@ -14,6 +14,7 @@ import aiohttp
 import pytest
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
+from rotator.assembly.kept_files import build_state
 from rotator.assembly.tracking import build_tracking
 from rotator.box.app import App
 from rotator.config.load import parse
@@ -32,7 +33,8 @@ def page_of(app: App, pairings: Pairings | None = None, **more: Any) -> PageThre
     """One more page of this box, not started. `more`: as in `build_page`."""
     pairings = pairings or build_pairings(app.config, lambda: True)
     assert pairings is not None
-    tap, tracking = Tap(datetime.now, lambda: app.loop.status), build_tracking(app.config, app.loop, app.mount)
+    tap = Tap(datetime.now, lambda: app.loop.status)
+    tracking = build_tracking(app.config, app.loop, app.mount, build_state(app.config))
     return build_page(
         app.config, app.loop, app.mount, pairings, anew=Anew(), lcd=list, wires=[], tap=tap, tracking=tracking, **more
     )

@@ -56,7 +56,7 @@ def test_an_order_counts_and_the_file_stays(page_box: Start, tmp_path: Path) -> 
                 ("SO-50", 2.0, 1.0),
                 ("ISS", 1.0, 1.0),
             ]
-            assert (tmp_path / "priorities.json").exists()
+            assert "priorities" in (tmp_path / "state.json").read_text()
             assert await box.post("followed", {"order": None}) == (200, {"ok": True})
             _, told = await box.get("followed")
             assert {each["priority"] for each in told["followed"]} == {1.0}

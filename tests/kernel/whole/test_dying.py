@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.store.learnt import FORM
+from rotator.store.state import FORM
 from rotator.store.whole import write_whole
 from tests.kernel.bench.gpio import persisting
 from tests.kernel.bench.waiting import until
@@ -154,7 +154,7 @@ def test_the_disk_is_full(site: Site) -> None:
     subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "small", disk], check=True)
     try:
         site.state = disk / "state.json"
-        saved = json.dumps({"format": FORM.today, "axes": {}})
+        saved = json.dumps({"format": FORM.today})
         site.state.write_text(saved)
         subprocess.run(["dd", "if=/dev/zero", f"of={disk / 'filler'}"], check=False, capture_output=True)
         site.write_config()
