@@ -11,7 +11,7 @@ from pathlib import Path
 from docs import session
 from rotator.config.reference import reference
 from rotator.control import rights
-from rotator.doctor.reference import checks_table
+from rotator.doctor.checks import checks_table
 from rotator.protocols.console import VERBS
 from rotator.protocols.reference.datagrams import pstrotator_table, pstrotatoraz_table
 from rotator.protocols.reference.gs232 import gs232_table, rotctld_table

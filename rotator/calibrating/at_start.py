@@ -16,11 +16,11 @@ from typing import Any
 from hw.ports import Axis
 from rotator.assembly.board import Board
 from rotator.assembly.calibration import open_compass
-from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import CompassReading, HeadingSample, NorthUncertain, find_north, possible_angles_deg
 from rotator.calibrating.compass import READ_EVERY_S, CompassReader
 from rotator.calibrating.compass_guide import SAMPLES
 from rotator.calibrating.facts import NorthFacts, north_facts
+from rotator.calibrating.guide import position_unknown
 from rotator.config.model import Config
 from rotator.exchange.orders import Confirm
 from rotator.exchange.sources import Source

@@ -11,14 +11,13 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
-from rotator.calibrating.axis_state import turned_the_wrong_way
 from rotator.calibrating.entries import Entry, Press, StopNow
 from rotator.calibrating.guide import Abandoned, Guide
 from rotator.calibrating.phrases import Phrases, phrases_for
 from rotator.calibrating.reading_watch import AxisMoved, ReadingWatch
 from rotator.calibrating.readings import READINGS, SHARES, Measured, NotTrusted, ReadingUnit, measure
 from rotator.calibrating.results import AxisCalibrated
-from rotator.exchange.faults import Notice
+from rotator.exchange.faults import FaultKind, Notice
 from rotator.exchange.orders import Jog, Stop
 from rotator.exchange.status import AxisStatus, Status
 
@@ -42,6 +41,11 @@ class AxisFacts:
     unit: ReadingUnit = SHARES
     settle_s: float = 0.0
     """How long it still moves after its status says that it stands."""
+
+
+def turned_the_wrong_way(axis: AxisStatus) -> bool:
+    """The reading moved against the motor. This fault stops the axis before the press is over."""
+    return axis.fault is not None and axis.fault.kind is FaultKind.WRONG_WAY
 
 
 class AxisGuide(Guide):

@@ -10,11 +10,10 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from hw.ports import Axis, CompassCalibration
-from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import UNCALIBRATED, CompassReading, HeadingSample
 from rotator.calibrating.entries import Entry, StopNow
 from rotator.calibrating.facts import NorthFacts
-from rotator.calibrating.guide import CONFIRM_S, Steps, refused
+from rotator.calibrating.guide import CONFIRM_S, Steps, position_unknown, refused
 from rotator.calibrating.steering import SteeringGuide
 from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 from rotator.exchange.orders import Aim, Confirm, Stop

@@ -11,14 +11,20 @@ from collections.abc import Generator
 from hw.ports import Direction
 from rotator.assembly.calibration import CalibrationTraits
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
-from rotator.calibrating.axis_state import needs_homing, position_unknown
 from rotator.calibrating.entries import Number, StopNow, Word
-from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps
+from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps, position_unknown
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import NotTrusted
 from rotator.calibrating.results import AxisCalibrated
 from rotator.calibrating.table_draft import LEAST_SPAN_DEG
+from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Confirm, Home, Stop
+from rotator.exchange.status import AxisStatus
+
+
+def needs_homing(axis: AxisStatus) -> bool:
+    """The axis counts pulses and its count is not known."""
+    return Missing.HOMING in axis.missing
 
 
 class DegreesGuide(AxisGuide):

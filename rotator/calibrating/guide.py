@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 
-from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.entries import NUMBER_FORM, Entry, Number, Press, StopNow, Unknown, Word
+from rotator.calibrating.results import Result
+from rotator.exchange.faults import FaultKind
 from rotator.exchange.orders import Order, Stop
 from rotator.exchange.spoken import sender
 from rotator.exchange.status import AxisStatus, Status
@@ -46,11 +47,19 @@ def refused(reason: object) -> Abandoned:
     return Abandoned(f"Refused: {reason}. {NOTHING_SAVED}")
 
 
+def position_unknown(axis: AxisStatus) -> bool:
+    """A controller behind a gear does not know its angle after power-on."""
+    return axis.fault is not None and axis.fault.kind is FaultKind.POSITION_UNKNOWN
+
+
 class Guide:
     """Call `step` with every status and every entry until `ended`.
 
     `keys` lists what the operator can type. Angles outside `least_deg` to `greatest_deg` are refused.
     """
+
+    result: Result | None = None
+    """None: it has not ended, or without a result."""
 
     def __init__(self, keys: str, least_deg: float, greatest_deg: float) -> None:
         self.prompt = ""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Generator
 
-from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import (
     LEAST_MAGNETOMETER,
     North,
@@ -20,7 +19,7 @@ from rotator.calibrating.bearing import (
 from rotator.calibrating.compass_guide import KEYS, LEAST_PLACES, PAUSE_S, CompassGuide, CompassReady
 from rotator.calibrating.entries import NUMBER_FORM, Number, Word
 from rotator.calibrating.facts import NorthFacts
-from rotator.calibrating.guide import LEFT, NOTHING_SAVED, Abandoned, Steps, refused
+from rotator.calibrating.guide import LEFT, NOTHING_SAVED, Abandoned, Steps, position_unknown, refused
 from rotator.calibrating.results import AngleConfirmed, NorthFound
 from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import ExitStack
-from typing import Protocol
 
 from hw.ports import Axis, HardwareError
 from rotator.assembly.board import Board
@@ -29,7 +28,6 @@ from rotator.calibrating.facts import north_facts
 from rotator.calibrating.guide import Guide
 from rotator.calibrating.north_guide import NorthGuide
 from rotator.calibrating.readings import DEGREES
-from rotator.calibrating.results import AngleConfirmed, AxisCalibrated, NorthFound, Result
 from rotator.calibrating.table_guide import TableGuide
 from rotator.config.model import Config
 from rotator.control.controller import Controller
@@ -41,58 +39,47 @@ from rotator.store.state import State
 CALIBRATE = Source("calibrate")
 
 
-class Rig(Protocol):
-    """What a calibration session runs, one after the other."""
+class Rig:
+    """What a calibration session runs, one after the other: a guide on a control loop."""
 
+    guide: Guide
     loop: ControlLoop
-
-    @property
-    def guide(self) -> Guide: ...
-
-    @property
-    def result(self) -> Result | None:
-        """None: the guide ended without a result."""
 
     def step(self, entry: Entry | None = None) -> tuple[str, ...]:
         """Give the guide the latest status and an entry. Returns the lines it shows."""
+        return step(self.guide, self.loop, entry)
 
     def picture(self) -> tuple[str, bool]:
         """The state in one line, and whether anything moves."""
+        raise NotImplementedError
 
-    def start(self) -> None: ...
+    def start(self) -> None:
+        """What runs beside the loop, which the session starts and stops."""
 
-    def stop(self) -> None: ...
+    def stop(self) -> None:
+        """What `start` has started."""
 
 
-class AxisRig:
+class AxisRig(Rig):
     """One axis, treated as never set up: it obeys jog only, 2 s a press."""
 
+    guide: AxisGuide
+
     def __init__(self, config: Config, axis: Axis, station: Station, clock: Callable[[], float]) -> None:
-        self.guide: AxisGuide = axis_guide(config, axis)
+        self.guide = axis_guide(config, axis)
         self.loop = control_loop(config, calibration_controller(config, axis), station, clock)
-
-    @property
-    def result(self) -> AxisCalibrated | None:
-        return self.guide.result
-
-    def step(self, entry: Entry | None = None) -> tuple[str, ...]:
-        return step(self.guide, self.loop, entry)
 
     def picture(self) -> tuple[str, bool]:
         return picture(self.guide, self.loop)
 
-    def start(self) -> None:
-        """Only the loop runs, and the session starts that."""
 
-    def stop(self) -> None:
-        """Only the loop runs, and the session stops that."""
-
-
-class NorthRig:
+class NorthRig(Rig):
     """The whole box as configured, with its compass. Raises HardwareError where the file has no compass.
 
     `corrections`: what remembers the compass's own corrections; None: they are not kept.
     """
+
+    guide: NorthGuide
 
     def __init__(
         self,
@@ -110,15 +97,11 @@ class NorthRig:
         self.loop = control_loop(config, guided_controller(config), station, clock)
         self.guide = NorthGuide(north_facts(config, has_file=corrections is not None))
 
-    @property
-    def result(self) -> NorthFound | AngleConfirmed | None:
-        return self.guide.result
-
     def step(self, entry: Entry | None = None) -> tuple[str, ...]:
         reader = self.compass
         if reader.latest:
             self.guide.see(reader.latest)
-        lines = step(self.guide, self.loop, entry)
+        lines = super().step(entry)
         if self.guide.save_wanted and not self._saving:
             reader.request_save()
             self._saving = True

@@ -155,7 +155,7 @@ class CalibrationSession:
             await asyncio.to_thread(self._draw, rig.guide.residuals)
         if not rig.guide.ended:
             self._screen.show(f"Stopped: the motors stand, nothing of the {task} is saved.")
-        return rig.result
+        return rig.guide.result
 
     def _keep(self, stopped: Latch) -> None:
         """A stop holds for the box that is started next, too."""

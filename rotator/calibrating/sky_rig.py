@@ -15,8 +15,7 @@ from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import Entry
 from rotator.calibrating.receiver import BadAddress, Receiver, RigctldReceiver, address
-from rotator.calibrating.results import MountFound
-from rotator.calibrating.rig import control_loop, step
+from rotator.calibrating.rig import Rig, control_loop
 from rotator.calibrating.scan_guide import ScanGuide
 from rotator.calibrating.sky_facts import sky_facts
 from rotator.calibrating.sky_guide import Sighting, SkyGuide
@@ -33,11 +32,13 @@ SCAN_TOLERANCE = 0.1
 """In beams: the places of a scan are this exact at least. Where the boom really stands is read there."""
 
 
-class SkyRig:
+class SkyRig(Rig):
     """The whole box as configured, and a target on the sky. `utc`: the time by the box's clock, in seconds since 1970.
 
     `receiver`: by its strength the box finds the target itself; None: the operator does. Raises NotThere.
     """
+
+    guide: SkyGuide
 
     def __init__(
         self,
@@ -56,19 +57,15 @@ class SkyRig:
         config = config if receiver is None else scanning(config)
         facts = sky_facts(config, _called(target.name))
         self.loop = control_loop(config, guided_controller(config), station, clock)
-        self.guide: SkyGuide = SkyGuide(facts) if receiver is None else ScanGuide(facts)
+        self.guide = SkyGuide(facts) if receiver is None else ScanGuide(facts)
         self._seen = self._sighting()
-
-    @property
-    def result(self) -> MountFound | None:
-        return self.guide.result
 
     def step(self, entry: Entry | None = None) -> tuple[str, ...]:
         self._seen = self._sighting()
         self.guide.see(self._seen)
         if isinstance(self.guide, ScanGuide) and self._receiver is not None:
             self.guide.hear(self._receiver.latest())
-        return step(self.guide, self.loop, entry)
+        return super().step(entry)
 
     def picture(self) -> tuple[str, bool]:
         status, seen = self.loop.status, self._seen

@@ -6,21 +6,18 @@
 from __future__ import annotations
 
 import click
+from click import Argument, Choice, Option
 
 from rotator.cli.commands import ANY_WORDS, CONFIG, YES, Number, NumbersCommand, command
 
-AXIS = click.Argument(
-    ["axis"], type=click.Choice(["azimuth", "elevation"], case_sensitive=False), metavar="azimuth|elevation"
-)
-WAIT = click.Option(
-    ["--no-wait", "wait"], is_flag=True, flag_value=False, default=True, help="Give the order, and end."
-)
+AXIS = Argument(["axis"], type=Choice(["azimuth", "elevation"], case_sensitive=False), metavar="azimuth|elevation")
+WAIT = Option(["--no-wait", "wait"], is_flag=True, flag_value=False, default=True, help="Give the order, and end.")
 
 WHERE = command(
     "where",
     "console:where",
     CONFIG,
-    click.Option(["--json", "as_json"], is_flag=True, help="One object; its fields: rotator help commands."),
+    Option(["--json", "as_json"], is_flag=True, help="One object; its fields: rotator help commands."),
     says="""Show where the antenna is, who moves it, and what is wrong.
 
     The exit code is 3 where an axis has a fault.
@@ -32,8 +29,8 @@ POINT = command(
     "moves:point",
     CONFIG,
     WAIT,
-    click.Argument(["azimuth_deg"], type=Number("degrees"), metavar="AZIMUTH"),
-    click.Argument(["elevation_deg"], type=Number("degrees"), metavar="ELEVATION"),
+    Argument(["azimuth_deg"], type=Number("degrees"), metavar="AZIMUTH"),
+    Argument(["elevation_deg"], type=Number("degrees"), metavar="ELEVATION"),
     cls=NumbersCommand,
     says="""Point the antenna, and wait until it has arrived.
 
@@ -47,10 +44,8 @@ TRACK = command(
     "track",
     "track:begin",
     CONFIG,
-    click.Option(
-        ["--clock-is-right"], is_flag=True, help="You have seen that the computer's clock shows the right time."
-    ),
-    click.Argument(["words"], nargs=-1, metavar="[NAME|LOCATOR|AZ EL|FILE.csv|plan|off]"),
+    Option(["--clock-is-right"], is_flag=True, help="You have seen that the computer's clock shows the right time."),
+    Argument(["words"], nargs=-1, metavar="[NAME|LOCATOR|AZ EL|FILE.csv|plan|off]"),
     context_settings=ANY_WORDS,
     says="""Let the box track a target by itself, from pass to pass.
 
@@ -66,10 +61,8 @@ JOG = command(
     "moves:jog",
     CONFIG,
     WAIT,
-    click.Argument(
-        ["direction"], type=click.Choice(["cw", "ccw", "up", "down"], case_sensitive=False), metavar="cw|ccw|up|down"
-    ),
-    click.Argument(["seconds"], type=Number("seconds", 0.05)),
+    Argument(["direction"], type=Choice(["cw", "ccw", "up", "down"], case_sensitive=False), metavar="cw|ccw|up|down"),
+    Argument(["seconds"], type=Number("seconds", 0.05)),
     cls=NumbersCommand,
     says="""Turn one axis for some SECONDS, 5 at most.
 
@@ -92,7 +85,7 @@ STOP = command(
     "stop",
     "console:stop",
     CONFIG,
-    click.Argument(["words"], nargs=-1, metavar=""),
+    Argument(["words"], nargs=-1, metavar=""),
     says="""Stop the antenna until `rotator resume`. Until then no link can move it.
 
     Without --config it stops every box that you run, in whichever folder, and the service; with sudo every user's.
@@ -123,7 +116,7 @@ CONFIRM = command(
     "console:confirm",
     CONFIG,
     AXIS,
-    click.Argument(["angle_deg"], type=Number("degrees"), metavar="DEGREES"),
+    Argument(["angle_deg"], type=Number("degrees"), metavar="DEGREES"),
     cls=NumbersCommand,
     says="""Say at which angle an axis stands, in DEGREES.
 
@@ -155,7 +148,7 @@ PANEL = command(
     "panel",
     "console:hand",
     CONFIG,
-    click.Argument(["words"], nargs=-1, required=True, metavar="mode|knob|jog|stop ..."),
+    Argument(["words"], nargs=-1, required=True, metavar="mode|knob|jog|stop ..."),
     context_settings=ANY_WORDS,
     says="""Move a switch or a knob of a simulated box's panel.
 
@@ -173,9 +166,9 @@ PAIR = command(
     "pair",
     "console:pair",
     CONFIG,
-    click.Option(["--list", "listed"], is_flag=True, help="List all that are paired, with their numbers."),
-    click.Option(["--revoke"], type=click.IntRange(1, 1_000_000), metavar="NUMBER", help="Pair this one no more."),
-    click.Option(["--token"], metavar="NAME", help="Print a token for a program of this name."),
+    Option(["--list", "listed"], is_flag=True, help="List all that are paired, with their numbers."),
+    Option(["--revoke"], type=click.IntRange(1, 1_000_000), metavar="NUMBER", help="Pair this one no more."),
+    Option(["--token"], metavar="NAME", help="Print a token for a program of this name."),
     says="Print the code that pairs a browser with the box.",
     examples=["rotator pair", "rotator pair --list", "rotator pair --token logger"],
 )
@@ -183,7 +176,7 @@ TELL = command(
     "tell",
     "console:tell",
     CONFIG,
-    click.Argument(["words"], nargs=-1, type=click.UNPROCESSED),
+    Argument(["words"], nargs=-1, type=click.UNPROCESSED),
     context_settings=ANY_WORDS,
     says="""Send WORDS to the box's console, for scripts. Without WORDS: list the words.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
-import textwrap
 import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
@@ -19,6 +18,7 @@ from rich.text import Text
 
 from rotator.calibrating.rig import Rig
 from rotator.calibrating.typed_ahead import TypedAhead
+from rotator.cli import lines
 from rotator.cli.screen import draw
 
 
@@ -30,8 +30,8 @@ class PlainLines:
         self._console = Console(highlight=False, soft_wrap=True)
         self._reads = False
 
-    def show(self, *lines: str) -> None:
-        for line in lines:
+    def show(self, *said: str) -> None:
+        for line in said:
             self._console.print(wrapped(line, self._console), markup=False)
 
     def ask(self, prompt: str) -> None:
@@ -58,15 +58,15 @@ class LivePicture:
         self._shown: tuple[str, ...] = ()
         self._times = 1
 
-    def show(self, *lines: str) -> None:
-        if lines == self._shown:
+    def show(self, *said: str) -> None:
+        if said == self._shown:
             self._times += 1
             return
         if self._times > 1:
             self._console.print(self._count, style="dim", markup=False)
-        for line in lines:
+        for line in said:
             self._console.print(wrapped(line, self._console), markup=False)
-        self._shown, self._times = lines, 1
+        self._shown, self._times = said, 1
 
     def ask(self, prompt: str) -> None:
         """The picture shows the prompt all the time."""
@@ -98,14 +98,7 @@ class LivePicture:
 
 def wrapped(line: str, console: Console) -> str:
     """Broken between words where a terminal is narrower. The rows below the first have its indent."""
-    if not console.is_terminal:
-        return line
-    indent = " " * (len(line) - len(line.lstrip()))
-    rows = [
-        textwrap.wrap(row, console.width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
-        for row in line.split("\n")
-    ]
-    return "\n".join("\n".join(each) for each in rows)
+    return lines.wrapped(line, console.width, len(line) - len(line.lstrip())) if console.is_terminal else line
 
 
 def _read_lines(typed: TypedAhead, events: asyncio.AbstractEventLoop) -> None:

@@ -18,8 +18,7 @@ from typing import Any
 import click
 from click.exceptions import NoArgsIsHelpError
 
-from rotator.cli.foreground import in_front
-from rotator.cli.lines import say
+from rotator.cli.lines import in_front, say
 
 CONFIG = click.Option(
     ["--config", "path"], type=click.Path(path_type=Path, readable=False), metavar="FILE", help="The box's file (TOML)."
@@ -32,6 +31,7 @@ FAULT = click.Option(
 )
 YES = click.Option(["--yes"], is_flag=True, help="Do not ask.")
 PLAIN = click.Option(["--plain"], is_flag=True, help="Plain lines even in a terminal.")
+FILE = click.Path(path_type=Path, dir_okay=False)
 ANY_WORDS = {"ignore_unknown_options": True}
 """What the command does not know itself goes to the box as it is: `-12` is a word, not an option."""
 

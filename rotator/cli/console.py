@@ -13,10 +13,9 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.agree import agree
 from rotator.cli.box import OK, BoxStatus, Refused, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed
-from rotator.cli.lines import say
+from rotator.cli.lines import agree, say
 from rotator.cli.reach import consoles
 from rotator.cli.stop import stop_boxes
 from rotator.control.refused import no_relay_in_doubt

@@ -1,6 +1,7 @@
-"""Prints lines for a person: at a terminal a long line is broken between words, with the rest indented.
+"""What commands say and ask at a terminal: a long line is broken between words, and no answer means no.
 
-Knows the width of the terminal. In a pipe or a file a line stays one line, for the program that reads it.
+Knows the width of the terminal, and whether it is this command's own. In a pipe or a file a line stays one line, for
+the program that reads it.
 """
 
 from __future__ import annotations
@@ -8,8 +9,11 @@ from __future__ import annotations
 import os
 import sys
 import textwrap
+from typing import TextIO
 
 import click
+
+from rotator.cli.failed import CommandFailed
 
 NARROWEST = 20
 """A terminal that says it has fewer columns does not know its width."""
@@ -37,3 +41,27 @@ def _columns(*, err: bool) -> int | None:
     except (OSError, ValueError):
         return None
     return columns if columns >= NARROWEST else None
+
+
+def agree(question: str, *, yes: bool) -> None:
+    """Raises CommandFailed where the user does not agree. `yes`: do not ask."""
+    if yes:
+        return
+    try:
+        click.confirm(question, abort=True)
+    except click.Abort:
+        raise CommandFailed("nothing was done (--yes does it without asking)") from None
+
+
+def in_front(stream: TextIO) -> bool:
+    """Whether the stream is a terminal that is this command's own now: its keys come here, and it may be drawn on.
+
+    A command that a shell has started behind its prompt (`rotator run &`) shares the terminal with that prompt. The
+    kernel would stop it as soon as it changed the terminal's modes, and its box with it.
+    """
+    if not stream.isatty():
+        return False
+    try:
+        return os.tcgetpgrp(stream.fileno()) == os.getpgrp()
+    except OSError:  # it is not the terminal of this session: no shell shares it
+        return True

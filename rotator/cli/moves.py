@@ -16,9 +16,9 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.agree import agree
 from rotator.cli.box import AXES, ENDED, BoxStatus, Refused, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed, NoBox
+from rotator.cli.lines import agree
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
 from rotator.control.refused import needs_no_homing

@@ -12,7 +12,6 @@ import logging
 import os
 import shutil
 import sys
-import textwrap
 import time
 from contextlib import nullcontext, suppress
 from pathlib import Path
@@ -27,7 +26,7 @@ from rotator.cli.announced import announced, boxes
 from rotator.cli.commands import draws
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import fault_names, parse_faults
-from rotator.cli.foreground import in_front
+from rotator.cli.lines import in_front, wrapped
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.reach import connected
 from rotator.cli.run_keys import NEXT, RunKeys
@@ -136,13 +135,7 @@ async def run_app(
         await asyncio.gather(watcher, return_exceptions=True)
     # Below the terminal as it was before the picture.
     last = "The page starts the box anew." if anew.asked else plain_lines.farewell(app.loop.status)
-    screen.write("".join(f"{row}\n" for row in (_rows(last) if screen.isatty() else last.split("\n"))))
-
-
-def _rows(text: str) -> list[str]:
-    """Broken between words, for the terminal's width."""
-    columns = shutil.get_terminal_size().columns
-    return [row for line in text.split("\n") for row in textwrap.wrap(line, columns, break_on_hyphens=False)]
+    screen.write(f"{wrapped(last, shutil.get_terminal_size().columns, 0) if screen.isatty() else last}\n")
 
 
 async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:

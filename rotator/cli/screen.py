@@ -20,7 +20,7 @@ from typing import IO, cast
 from rich.console import Console, RenderableType
 from rich.live import Live
 
-from rotator.cli.foreground import in_front
+from rotator.cli.lines import in_front
 from rotator.cli.output import Output
 from rotator.exchange.spoken import spoken
 from rotator.runtime.signals import never_pause

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from click import Argument, Choice, Option
 
 from rotator import __version__
-from rotator.cli.commands import CONFIG, FAULT, HERE, PLAIN, YES, Number, command
+from rotator.cli.commands import CONFIG, FAULT, FILE, HERE, PLAIN, YES, Number, command
 from rotator.cli.utc import utc_time
 
 
@@ -37,9 +38,7 @@ RUN = command(
 ARDUINO = command(
     "arduino",
     "arduino:run_arduino",
-    click.Option(
-        ["--pty"], default="run/arduino", type=click.Path(path_type=Path), help="The path of its serial port."
-    ),
+    Option(["--pty"], default="run/arduino", type=click.Path(path_type=Path), help="The path of its serial port."),
     CONFIG,
     PLAIN,
     says="Run an emulation of the Arduino, to compare it with the box.",
@@ -49,13 +48,9 @@ MONITOR = command(
     "monitor",
     "monitor:watch",
     CONFIG,
-    click.Option(
-        ["--to"], type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="Write to a new file."
-    ),
-    click.Option(
-        ["--link", "links"], multiple=True, metavar="NAME", help="Show only this link; may be given several times."
-    ),
-    click.Option(
+    Option(["--to"], type=FILE, metavar="FILE", help="Write to a new file."),
+    Option(["--link", "links"], multiple=True, metavar="NAME", help="Show only this link; may be given several times."),
+    Option(
         ["--limit-mb"],
         type=Number("megabytes", 0.001),
         default=10.0,
@@ -82,7 +77,7 @@ DOCTOR = command(
     "doctor",
     "doctor:examine_box",
     CONFIG,
-    click.Option(["--json", "as_json"], is_flag=True, help="Print the findings as JSON."),
+    Option(["--json", "as_json"], is_flag=True, help="Print the findings as JSON."),
     says="""Check everything that the box needs, and advise repairs.
 
     The exit code is 0 without errors, 1 with errors.
@@ -94,20 +89,12 @@ CALIBRATE = command(
     "calibrate:calibrate",
     CONFIG,
     FAULT,
-    click.Option(["--plain"], is_flag=True, help="Lines in and out even in a terminal."),
-    click.Argument(
-        ["what"], required=False, type=click.Choice(["azimuth", "elevation", "north", "sky"], case_sensitive=False)
-    ),
-    click.Option(["--target"], metavar="NAME", help="sky: what the antenna is steered to; the Sun, if left out."),
-    click.Option(
-        ["--at", "at_s"], type=utc_time, metavar="UTC", help="sky: begin at this moment; for a simulated rotor."
-    ),
-    click.Option(
-        ["--receiver"], metavar="HOST:PORT", help="sky: its rigctld; the box finds the target by the strength."
-    ),
-    click.Option(
-        ["--svg"], type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="sky: draw the points."
-    ),
+    Option(["--plain"], is_flag=True, help="Lines in and out even in a terminal."),
+    Argument(["what"], required=False, type=Choice(["azimuth", "elevation", "north", "sky"], case_sensitive=False)),
+    Option(["--target"], metavar="NAME", help="sky: what the antenna is steered to; the Sun, if left out."),
+    Option(["--at", "at_s"], type=utc_time, metavar="UTC", help="sky: begin at this moment; for a simulated rotor."),
+    Option(["--receiver"], metavar="HOST:PORT", help="sky: its rigctld; the box finds the target by the strength."),
+    Option(["--svg"], type=FILE, metavar="FILE", help="sky: draw the points."),
     says="""Set up axes, find north, or how the mount leans.
 
     It asks, saves the result in the file, and keeps the file before as FILE.bak. End the box first.
@@ -121,10 +108,10 @@ CALIBRATE = command(
 SHOW_CONFIG = command(
     "config",
     "ask:config",
-    click.Argument(["name"], required=False, metavar="[NAME]"),
-    click.Option(["--list", "listed"], is_flag=True, help="List the shipped configurations."),
-    click.Option(["--ask", "asked"], is_flag=True, help="Ask a few questions, and write your file."),
-    click.Option(["--to"], type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="The file to write."),
+    Argument(["name"], required=False, metavar="[NAME]"),
+    Option(["--list", "listed"], is_flag=True, help="List the shipped configurations."),
+    Option(["--ask", "asked"], is_flag=True, help="Ask a few questions, and write your file."),
+    Option(["--to"], type=FILE, metavar="FILE", help="The file to write."),
     says="""Print or write a shipped configuration, or ask for your own.
 
     NAME is one of those that --list shows; without NAME it is the simulated rotor's.
@@ -132,18 +119,14 @@ SHOW_CONFIG = command(
     examples=["rotator config --ask", "rotator config --list", "rotator config g5500 --to station.toml"],
 )
 
-UNDO = click.Option(["--undo"], is_flag=True, help="Remove the changes of this command, and nothing else.")
-ROOT = click.Option(
+UNDO = Option(["--undo"], is_flag=True, help="Remove the changes of this command, and nothing else.")
+ROOT = Option(
     ["--root"],
     type=click.Path(path_type=Path, file_okay=False, exists=True),
     default=Path("/"),
     help="The folder with the Pi's files, for a card in another machine.",
 )
-STATION = click.Option(
-    ["--config", "settings"],
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="Configuration file; without it /etc/rotator/rotator.toml.",
-)
+STATION = Option(["--config", "settings"], type=FILE, help="Configuration file; without it /etc/rotator/rotator.toml.")
 SET_UP = click.Group(
     "setup",
     help="Prepare this Pi itself. Shows the changes and asks first; --undo removes them.",
@@ -156,14 +139,12 @@ SET_UP = click.Group(
             YES,
             ROOT,
             STATION,
-            click.Option(
-                ["--usb-id"], default="1d6b:0104", metavar="VENDOR:PRODUCT", show_default=True, help="The USB id."
-            ),
-            click.Option(
+            Option(["--usb-id"], default="1d6b:0104", metavar="VENDOR:PRODUCT", show_default=True, help="The USB id."),
+            Option(
                 ["--pi", "model"], metavar="NAME", help="The Pi that takes the card in --root, such as zero2w or 4b."
             ),
-            click.Option(["--up", "device"], flag_value="up", help="Build the USB device now, as the unit does."),
-            click.Option(["--down", "device"], flag_value="down", help="Remove the USB device now."),
+            Option(["--up", "device"], flag_value="up", help="Build the USB device now, as the unit does."),
+            Option(["--down", "device"], flag_value="down", help="Remove the USB device now."),
             says="Make the Pi a serial port of the PC, over USB.",
             examples=["sudo rotator setup usb-serial"],
         ),
@@ -184,10 +165,8 @@ SET_UP = click.Group(
             YES,
             ROOT,
             STATION,
-            click.Option(
-                ["--allow"],
-                metavar="NETWORK",
-                help="Who may: a network such as 192.168.1.0/24, an address, or all.",
+            Option(
+                ["--allow"], metavar="NETWORK", help="Who may: a network such as 192.168.1.0/24, an address, or all."
             ),
             says="Open rotctld and the page to the local network. Says what to type on the PC, and waits for it.",
             examples=["sudo rotator setup network"],

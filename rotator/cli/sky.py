@@ -42,8 +42,7 @@ SHORTEST_NAME, GAP = 8, 2
 
 
 def show_where(path: Path | None, words: Sequence[str], at_s: float | None, *, as_json: bool) -> None:
-    config = load(_file(path))
-    site, catalogue = _sky(config, _file(path))
+    config, site, catalogue = _sky(path)
     at_s = time.time() if at_s is None else at_s
     try:
         target = find(" ".join(words), site, catalogue)
@@ -76,8 +75,7 @@ def show_where(path: Path | None, words: Sequence[str], at_s: float | None, *, a
 def show_passes(
     path: Path | None, names: tuple[str, ...], from_s: float | None, hours: float, least_deg: float, *, as_json: bool
 ) -> None:
-    config = load(_file(path))
-    site, catalogue = _sky(config, _file(path))
+    config, site, catalogue = _sky(path)
     from_s = time.time() if from_s is None else from_s
     try:
         targets = [find(name, site, catalogue) for name in names] or _all(site, catalogue)
@@ -108,8 +106,7 @@ def show_passes(
 
 
 def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json: bool) -> None:
-    config = load(_file(path))
-    site, catalogue = _sky(config, _file(path))
+    config, site, catalogue = _sky(path)
     if not config.sky.follow:
         raise CommandFailed(sky_plan.NOTHING)
     followed = sky_plan.followed_by(config, site, catalogue)
@@ -132,20 +129,17 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
         click.echo(line)
 
 
-def _file(path: Path | None) -> Path | None:
-    """The configuration that a command reads."""
-    return path or (INSTALLED if INSTALLED.exists() else None)
-
-
-def _sky(config: Config, file: Path | None) -> tuple[Site, Catalogue]:
+def _sky(path: Path | None) -> tuple[Config, Site, Catalogue]:
     """Raises CommandFailed without a place. Says which files could not be read."""
+    file = path or (INSTALLED if INSTALLED.exists() else None)
+    config = load(file)
     site = build_site(config.station)
     if site is None:
         raise CommandFailed(no_place(file))
     catalogue = build_catalogue(config)
     for fault in catalogue.faults:
         click.echo(f"[sky] elements: {fault}", err=True)
-    return site, catalogue
+    return config, site, catalogue
 
 
 def _all(site: Site, catalogue: Catalogue) -> list[Target]:

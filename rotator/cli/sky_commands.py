@@ -2,29 +2,25 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from click import Argument, Choice, Option
 
-import click
-
-from rotator.cli.commands import ANY_WORDS, CONFIG, FAULT, Commands, Number, command
+from rotator.cli.commands import ANY_WORDS, CONFIG, FAULT, FILE, Commands, Number, command
 from rotator.cli.utc import utc_time
 
 HOURS = Number("hours", 0.01, 24 * 14)
-JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print as JSON.")
-FROM = click.Option(
+JSON = Option(["--json", "as_json"], is_flag=True, help="Print as JSON.")
+FROM = Option(
     ["--from", "from_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."
 )
-AHEAD = click.Option(["--hours"], type=HOURS, default=24.0, metavar="HOURS", help="How far ahead; 24 if left out.")
+AHEAD = Option(["--hours"], type=HOURS, default=24.0, metavar="HOURS", help="How far ahead; 24 if left out.")
 
 WHERE = command(
     "where",
     "sky:show_where",
     CONFIG,
     JSON,
-    click.Option(
-        ["--at", "at_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."
-    ),
-    click.Argument(["words"], nargs=-1, required=True, metavar="NAME"),
+    Option(["--at", "at_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."),
+    Argument(["words"], nargs=-1, required=True, metavar="NAME"),
     context_settings=ANY_WORDS,
     says="""Show where NAME is.
 
@@ -39,14 +35,14 @@ PASSES = command(
     JSON,
     FROM,
     AHEAD,
-    click.Option(
+    Option(
         ["--least", "least_deg"],
         type=Number("degrees", 0, 90),
         default=0.0,
         metavar="DEG",
         help="Leave out passes that stay lower than this.",
     ),
-    click.Argument(["names"], nargs=-1, metavar="[NAME...]"),
+    Argument(["names"], nargs=-1, metavar="[NAME...]"),
     says="""Show when each NAME rises and sets.
 
     Without NAME: every satellite known.
@@ -93,31 +89,25 @@ REHEARSE = command(
     "rehearse:rehearse_pass",
     CONFIG,
     FAULT,
-    click.Argument(["word"], required=False, metavar="[PASS.csv|NAME]"),
-    click.Option(
+    Argument(["word"], required=False, metavar="[PASS.csv|NAME]"),
+    Option(
         ["--via"],
-        type=click.Choice(["gs232", "rotctld", "track"]),
+        type=Choice(["gs232", "rotctld", "track"]),
         default="gs232",
         help="The protocol of the orders; `track`: the box knows the pass beforehand.",
     ),
-    click.Option(
-        ["--trace"], type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file."
-    ),
-    click.Option(
-        ["--svg"], type=click.Path(path_type=Path, dir_okay=False), help="Draw the flight into this SVG file."
-    ),
-    click.Option(["--json", "as_json"], is_flag=True, help="Print the summary as JSON."),
-    click.Option(
-        ["--target"], metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box."
-    ),
-    click.Option(
+    Option(["--trace"], type=FILE, help="Write the flight to this CSV file."),
+    Option(["--svg"], type=FILE, help="Draw the flight into this SVG file."),
+    Option(["--json", "as_json"], is_flag=True, help="Print the summary as JSON."),
+    Option(["--target"], metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box."),
+    Option(
         ["--at", "at_s"],
         type=utc_time,
         metavar="UTC",
         help="The pass begins then, and is recognised in the orders; with --target: the first pass that ends after "
         "this.",
     ),
-    click.Option(["--arduino"], is_flag=True, help="Fly the pass with the emulated Arduino instead of the box."),
+    Option(["--arduino"], is_flag=True, help="Fly the pass with the emulated Arduino instead of the box."),
     says="""Fly a satellite pass on the simulated rotor.
 
     It prints how far off the antenna was; the exit code is 3 where a --fault holds an axis at the end. The pass is a

@@ -1,7 +1,7 @@
 """The checks of the I2C buses, of the chips on them, and of the pots on a converter.
 
-Knows the likely cause of each bad reading. Reads no pot while the box is running: a conversion started here would spoil
-one of the box.
+Knows the likely cause of each bad reading. A conversion started here
+would spoil one of a running box.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from rotator.config.i2c import ADDRESSES, I2CChip
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine
-from rotator.doctor.wires import running
 
 SAMPLES = 20
 UNSTEADY = 0.02
@@ -78,9 +77,6 @@ def has_pots(config: Config) -> bool:
 
 
 def pots(machine: Machine, config: Config) -> Iterator[Finding]:
-    if left_alone := running(machine, config):
-        yield left_alone
-        return
     try:
         with machine.chips.converter(config) as converter:
             if converter.answers():

@@ -78,11 +78,11 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     ),
     Check(
         "pots", "steady readings, within lowest_reading and highest_reading \\*",
-        bus.pots, on_chips=True, concerns=bus.has_pots,
+        bus.pots, on_chips=True, alone=True, concerns=bus.has_pots,
     ),
     Check(
         "sensors", "AS5600: magnet; MPU6050: 1 g; BNO055: heading \\*",
-        sensors.sensors, on_chips=True, concerns=sensors.has_sensors,
+        sensors.sensors, on_chips=True, alone=True, concerns=sensors.has_sensors,
     ),
     Check(
         "PCA9685", "the chips of servos and panel answer, and were not reset",
@@ -90,7 +90,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     ),
     Check(
         "moteus", "library, adapter; both controllers: supply, fault, known angle \\*",
-        moteus.controllers, on_chips=True, concerns=moteus.is_moteus,
+        moteus.controllers, on_chips=True, alone=True, concerns=moteus.is_moteus,
     ),
     Check(
         "SPI", "for chips on the kernel's SPI: the package spidev, and the devices",
@@ -98,7 +98,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     ),
     Check(
         "switches", "stop button and limit switches are closed; position of the mode switch \\*",
-        switches.switches, on_chips=True, concerns=switches.has_switches,
+        switches.switches, on_chips=True, alone=True, concerns=switches.has_switches,
     ),
     Check(
         "released lines", "`strict_gpiod`: the relays open when the program dies",
@@ -138,6 +138,12 @@ class Examination:
         return int(any(finding.ok is False for _, finding in self.findings))
 
 
+def checks_table() -> str:
+    """For docs/reference/checks.md: one row for each check, in the order of the report."""
+    checks: tuple[Check[...], ...] = (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)
+    return "\n".join(["check | looks at", "--|--", *(f"{check.name} | {check.looks_at}" for check in checks)])
+
+
 def examine(machine: Machine, path: Path | None) -> Examination:
     """`path`: the configuration file; None for the shipped one."""
     findings = [(CONFIGURATION.name, finding) for finding in _safely(CONFIGURATION.look, path)]
@@ -163,10 +169,20 @@ def _of_station(
     if config is None:
         yield skipped("needs a configuration")
     elif check.on_chips and simulated:
-        for finding in _safely(check.look, replace(machine, chips=simulated_chips(config)), config):
+        for finding in _safely(look_of(check), replace(machine, chips=simulated_chips(config)), config):
             yield replace(finding, found=f"simulated: {finding.found}")
     else:
-        yield from _safely(check.look, machine, config)
+        yield from _safely(look_of(check), machine, config)
+
+
+def look_of(check: Check[[Machine, Config]]) -> Callable[[Machine, Config], Iterator[Finding]]:
+    """What the check does, or why it is not done now."""
+
+    def look(machine: Machine, config: Config) -> Iterator[Finding]:
+        left_alone = wires.running(machine, config) if check.alone else None
+        yield from check.look(machine, config) if left_alone is None else [left_alone]
+
+    return look
 
 
 def _safely(look: Callable[..., Iterator[Finding]], *arguments: Any) -> Iterator[Finding]:

@@ -89,5 +89,7 @@ class Check(Generic[P]):
     look: Callable[P, Iterator[Finding]]
     on_chips: bool = False
     """The check reads chips, so it also runs on a simulated station."""
+    alone: bool = False
+    """It uses chips or lines that a running box uses too, so it is left out while the box runs."""
     concerns: Callable[[Any], bool] = always
     """Whether the configuration uses the checked part. False: the report leaves the check out."""

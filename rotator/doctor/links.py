@@ -10,7 +10,7 @@ import ipaddress
 import os
 import re
 import socket
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -88,11 +88,18 @@ def pseudo_terminals(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def tcp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
-    links = [(link.tcp, link) for link in config.link if link.tcp is not None]
+    return _ports(machine, [(link.tcp, link) for link in config.link if link.tcp is not None], socket.SOCK_STREAM)
+
+
+def udp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
+    return _ports(machine, [(link.udp, link) for link in config.link if link.udp is not None], socket.SOCK_DGRAM)
+
+
+def _ports(machine: Machine, links: Sequence[tuple[str, Link]], kind: socket.SocketKind) -> Iterator[Finding]:
     if not links:
         yield skipped("no link has one")
     for name, link in links:
-        yield _port(machine, name, socket.SOCK_STREAM, link)
+        yield _port(machine, name, kind, link)
 
 
 def page_port(machine: Machine, config: Config) -> Iterator[Finding]:
@@ -106,14 +113,6 @@ def page_port(machine: Machine, config: Config) -> Iterator[Finding]:
     state, is_local = found
     network = "" if is_local else ", and open to the network; who may turn the antenna there is paired"
     yield fine(f"{config.page.listen}: {state}{network}")
-
-
-def udp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
-    links = [(link.udp, link) for link in config.link if link.udp is not None]
-    if not links:
-        yield skipped("no link has one")
-    for name, link in links:
-        yield _port(machine, name, socket.SOCK_DGRAM, link)
 
 
 def _port(machine: Machine, name: str, kind: socket.SocketKind, link: Link) -> Finding:

@@ -1,7 +1,7 @@
 """The check of the moteus rotor: the library, the adapter, and the state of both controllers.
 
-Knows what their answers mean for the user. Sends queries and no order, and nothing while the box is running: two
-programs on one adapter take each other's answers.
+Knows what their answers mean for the user. Sends queries and no order: two programs on one adapter take
+each other's answers.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.links import serial_port
 from rotator.doctor.machine import Machine, shown
-from rotator.doctor.wires import running
 
 LEAST_V = 10.0
 """The lowest supply of a moteus r4.11 and of the smaller models."""
@@ -38,9 +37,6 @@ def is_moteus(config: Config) -> bool:
 
 
 def controllers(machine: Machine, config: Config) -> Iterator[Finding]:
-    if left_alone := running(machine, config):
-        yield left_alone
-        return
     if config.rotor.hardware == "pi":
         way = _interface(machine, config.moteus.can) if config.moteus.can else _port(machine, config.moteus.port)
         yield way

@@ -1,6 +1,6 @@
 """The checks of the sensor chips: AS5600 (magnet), MPU6050 (gravity) and BNO055 (compass).
 
-Knows which readings are plausible. Knows no register: the drivers do. Reads nothing while the box is running.
+Knows which readings are plausible. Knows no register: the drivers do.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, refused, skipped, warn, wrong
 from rotator.doctor.machine import Machine
-from rotator.doctor.wires import running
 from rotator.setup.pi import known
 
 HEADER_BUS = 1
@@ -25,9 +24,6 @@ def has_sensors(config: Config) -> bool:
 
 
 def sensors(machine: Machine, config: Config) -> Iterator[Finding]:
-    if left_alone := running(machine, config):
-        yield left_alone
-        return
     for axis in Axis:
         table = config.axis(axis)
         if place := table.sensor.i2c:

@@ -1,7 +1,6 @@
 """The check of the stop button, the mode switch and the limit switches.
 
-Knows which of them must be closed before a motor may run. Takes their lines for a moment, and never while the box is
-running.
+Knows which of them must be closed before a motor may run. Takes their lines for a moment.
 """
 
 from __future__ import annotations
@@ -12,7 +11,6 @@ from hw.ports import Axis, HardwareError
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
-from rotator.doctor.wires import running
 
 POSITIONS = (
     "MANUAL: the knobs move the antenna, programs do not",
@@ -28,9 +26,6 @@ def has_switches(config: Config) -> bool:
 
 
 def switches(machine: Machine, config: Config) -> Iterator[Finding]:
-    if left_alone := running(machine, config):
-        yield left_alone
-        return
     panel = {f"panel.{key}": pin for key, pin in config.panel.switches.items()}
     limits = {f"limits.{key}": pin for key, pin in config.limits.switches.items()}
     try:

@@ -10,18 +10,33 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from firmware_sim.clock import SimClock
+from rotator.control.sky.flight_plan import Antenna
+from rotator.exchange.flight_order import Fly
 from rotator.exchange.orders import Order
 from rotator.exchange.sources import Source
 from rotator.orbits.sight import Target
-from rotator.rehearsal.at_once import PlansAtOnce
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
-from rotator.tracking.next_flight import Now
+from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
 from rotator.tracking.ports import Box
+from rotator.tracking.program import Program, program_flight
 
 COMPUTING_S = 0.6
 """Seconds from an order until the listener's thread has looked at it, and has planned."""
+
+
+class PlansAtOnce:
+    """`rotator.tracking.ports.Planner`. In simulated time a plan takes none; the running box has a process for it."""
+
+    def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
+        return next_flight(wanted, antenna, now)
+
+    def plan_program(self, program: Program, antenna: Antenna, now: Now) -> NextFlight:
+        return program_flight(program, antenna, now)
+
+    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+        return rest_flight(wanted, antenna, now)
 
 
 @dataclass(frozen=True, slots=True)

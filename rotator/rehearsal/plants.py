@@ -44,9 +44,9 @@ FIRST_LOOK_S = 1.0
 
 
 class Plant(Protocol):
-    """The controller that follows the pass: the box, or the emulated Arduino."""
+    """What follows the pass: the box, or the emulated Arduino, which knows no satellites and no faults."""
 
-    early_s: float
+    early_s: float = 0.0
     """How long before the pass the rehearsal begins."""
 
     def begin(self, flown: Pass, begin_s: float) -> None:
@@ -62,15 +62,19 @@ class Plant(Protocol):
 
     def recognised(self) -> Named | None:
         """The satellite that the box has recognised in its orders."""
+        return None
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
         """Where that satellite really was; None: the box has recognised none."""
+        del now_s
+        return None
 
     def faults(self) -> tuple[str, ...]:
         """The faults that hold an axis now, each in a sentence."""
+        return ()
 
 
-class BoxPlant:
+class BoxPlant(Plant):
     """The box, from its protocol to its relays, on simulated chips.
 
     `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand.
@@ -187,10 +191,8 @@ class BoxPlant:
         return tuple(map(str, self.status.faults))
 
 
-class ArduinoPlant:
+class ArduinoPlant(Plant):
     """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
-
-    early_s = 0.0
 
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float]) -> None:
         self._clock = clock
@@ -211,15 +213,6 @@ class ArduinoPlant:
 
     def relay_starts(self) -> int:
         return self._station.relay_starts
-
-    def recognised(self) -> None:
-        """An Arduino knows no satellites."""
-
-    def true_direction(self, now_s: float) -> None:
-        """An Arduino knows no satellites."""
-
-    def faults(self) -> tuple[str, ...]:
-        return ()  # the sketch knows none
 
 
 def _order_each_second(order: Callable[[float, float], None], flown: Pass, clock: SimClock, begin_s: float) -> None:

@@ -18,7 +18,7 @@ from rotator.orbits.earth import Site
 from rotator.orbits.passes import passes
 from rotator.orbits.sight import NotThere
 from rotator.orbits.targets import find
-from rotator.rehearsal.at_once import PlansAtOnce
+from rotator.rehearsal.overhearing import PlansAtOnce
 from rotator.rehearsal.passes import Pass, PassError
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky

@@ -86,8 +86,8 @@ def test_with_relays_and_play_in_its_gears_it_finds_a_target_that_moves_meanwhil
     sky.say("f")
     assert "the points on the sky" in sky.text
     sky.say("y")
-    assert sky.rig.result is not None
-    assert sky.rig.result.model.ia_deg == pytest.approx(ASKEW["ia_deg"], abs=1.8)
+    assert sky.guide.result is not None
+    assert sky.guide.result.model.ia_deg == pytest.approx(ASKEW["ia_deg"], abs=1.8)
 
 
 def test_a_peak_at_the_edge_of_the_cross_is_looked_at_once_more() -> None:

@@ -62,7 +62,7 @@ def test_six_errors_are_found_from_eight_places_and_saved(tmp_path: Path) -> Non
         str(number) for number in range(1, 9)
     ]
     sky.say("y")
-    found = sky.rig.result
+    found = sky.guide.result
     assert found is not None
     assert off_deg(found.model) <= 0.3
     path = tmp_path / "station.toml"
@@ -81,14 +81,14 @@ def test_six_errors_are_found_from_eight_places_and_saved(tmp_path: Path) -> Non
 def test_points_of_an_earlier_time_count_too() -> None:
     sky = taken(begun(), *PLACES[:2])
     sky.say("f", "y")
-    first = sky.rig.result
+    first = sky.guide.result
     assert first is not None
     model = asdict(first.model) | {"points": [list(point) for point in first.points]}
     again = begun(station(mount={"model": model}), PLACES[2])
     assert "The file has 2 points" in again.guide.prompt
     again.say("y")
     taken(again, *PLACES[2:]).say("f", "y")
-    found = again.rig.result
+    found = again.guide.result
     assert found is not None
     assert len(found.points) == 8
     assert off_deg(found.model) <= 0.3
@@ -97,7 +97,7 @@ def test_points_of_an_earlier_time_count_too() -> None:
 def test_an_offset_of_the_file_is_not_in_the_points_it_keeps() -> None:
     sky = taken(begun(station(azimuth={"offset_deg": 10.0})), PLACES[1])
     sky.say("f", "y")
-    found = sky.rig.result
+    found = sky.guide.result
     assert found is not None
     assert found.points[0][0] == pytest.approx(sky.world.antenna()[0], abs=0.2)
 
@@ -106,7 +106,7 @@ def test_a_point_can_be_taken_back_and_nothing_is_saved_without_any() -> None:
     sky = taken(begun(), PLACES[0])
     assert "Taken back: the point at 20.0°, 20.0°" in sky.say("b")
     assert "There is no point yet" in sky.say("f")
-    assert sky.rig.result is None
+    assert sky.guide.result is None
 
 
 def test_a_model_that_is_no_better_is_not_offered() -> None:
@@ -120,7 +120,7 @@ def test_a_model_that_is_no_better_is_not_offered() -> None:
         sky.say("")
     assert "Save it?" not in sky.say("f")
     assert "Nothing is saved." in sky.text
-    assert sky.rig.result is None
+    assert sky.guide.result is None
 
 
 def test_a_target_below_the_horizon_ends_it() -> None:

@@ -46,7 +46,7 @@ def test_rotator_stop_ends_a_scan() -> None:
     assert not sky.moving()
     assert sky.guide.ended
     assert "Stopped by a rotator command: the motors stand. Nothing is saved." in sky.text
-    assert sky.rig.result is None
+    assert sky.guide.result is None
 
 
 def test_rotator_stop_ends_the_setting_up_of_an_axis(calibration: Callable[..., Any]) -> None:

@@ -18,7 +18,7 @@ from rotator.assembly.chips import Chips, ask_in_step
 from rotator.assembly.simulation import simulated_rotor
 from rotator.config.load import parse
 from rotator.config.model import Config
-from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION
+from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION, look_of
 from rotator.doctor.finding import Finding
 from rotator.doctor.machine import Machine
 from tests.boxes import free_port
@@ -127,7 +127,8 @@ class Pi:
         for check in OF_THE_MACHINE:
             if check.name == name:
                 return list(check.look(self.machine))
-        return next(list(check.look(self.machine, self.config)) for check in OF_THE_STATION if check.name == name)
+        look = next(look_of(check) for check in OF_THE_STATION if check.name == name)
+        return list(look(self.machine, self.config))
 
     def looks_at(self, name: str) -> bool:
         """Whether this configuration has anything of the kind."""

@@ -9,12 +9,10 @@ import pytest
 
 from rotator.config.load import shipped
 from rotator.config.model import Config
-from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION, Examination, examine
-from rotator.doctor.reference import checks_table
+from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION, Examination, checks_table, examine
 from rotator.views.examination import as_object, verdict
 from tests.doctor.conftest import STATION, Pi
 
-PAGE = Path(__file__).parents[2] / "docs" / "reference" / "checks.md"
 NAMES = ["configuration", *(check.name for check in OF_THE_MACHINE), *(check.name for check in OF_THE_STATION)]
 
 
@@ -131,13 +129,6 @@ def test_the_object_for_programs(pi: Pi, file: Path) -> None:
     assert by_name["watchdog"]["ok"] is True
     assert "watchdog" in by_name["watchdog"]["advice"]
     assert by_name["service"]["ok"] is None
-
-
-def test_the_page_holds_the_table_of_checks() -> None:
-    """If this fails, paste what `python -c "from rotator.doctor.reference import *; print(checks_table())"` prints."""
-    page = PAGE.read_text(encoding="utf-8")
-    between = page.split("<!-- checks: begin -->\n")[1].split("<!-- checks: end -->\n")[0]
-    assert between == f"\n{checks_table()}\n\n"
 
 
 def test_every_check_has_its_row() -> None:
