@@ -196,14 +196,16 @@ def start(tmp_path: Path) -> Iterator[Callable[..., Running]]:
 
 @pytest.fixture
 def start_in_terminal(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
-    """Start a command in a terminal."""
+    """Start a command in a terminal. `launcher`: the program that takes the terminal, and begins it."""
     started: list[tuple[InTerminal, int, int]] = []
 
-    def begin(*words: object, term: str = "xterm-256color", columns: int = 120) -> InTerminal:
+    def begin(
+        *words: object, term: str = "xterm-256color", columns: int = 120, launcher: str = _TAKE_TERMINAL
+    ) -> InTerminal:
         master, slave = os.openpty()
         termios.tcsetwinsize(slave, (40, columns))
         process = subprocess.Popen(
-            [sys.executable, "-c", _TAKE_TERMINAL, *COMMAND, *map(str, words)],
+            [sys.executable, "-c", launcher, *COMMAND, *map(str, words)],
             cwd=tmp_path,
             stdin=slave,
             stdout=slave,

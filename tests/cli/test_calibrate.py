@@ -133,13 +133,6 @@ def test_without_a_file_the_lines_for_one_are_shown() -> None:
     assert elevation.direction_checked
 
 
-def test_a_fault_of_the_simulator(start: Start, station: Path) -> None:
-    process = start("--config", str(station), "elevation", "--fault", "elevation-pot-open")
-    text, code = finish(process, "u", "", "q")
-    assert code == 1
-    assert "FAULT elevation: pot open or shorted" in text
-
-
 def test_one_axis_after_the_other_each_saved_for_itself(start: Start, tmp_path: Path) -> None:
     path = tmp_path / "servos.toml"
     path.write_text('[rotor]\ntype = "servo"   # two of them\n[servo.azimuth]\nstart_deg = 90\nslew_dps = 180\n')

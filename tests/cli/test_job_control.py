@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
-import termios
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-from tests.cli.conftest import COMMAND, InTerminal
 
 StartInTerminal = Callable[..., Any]
 CTRL_Z = "\x1a"
@@ -33,40 +28,11 @@ sys.exit(ended)
 """What a shell does for `COMMAND &`, as far as the kernel sees it; then it waits."""
 
 
-@pytest.fixture
-def start_behind(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
-    """Start a command behind the prompt of a shell."""
-    master, slave = os.openpty()
-    termios.tcsetwinsize(slave, (40, 120))
-    shells: list[subprocess.Popen[bytes]] = []
-
-    def begin(*words: object) -> InTerminal:
-        shells.append(
-            subprocess.Popen(
-                [sys.executable, "-c", SHELL, *COMMAND, *map(str, words)],
-                cwd=tmp_path,
-                stdin=slave,
-                stdout=slave,
-                stderr=slave,
-                start_new_session=True,
-                env=os.environ | {"TERM": "xterm-256color"},
-            )
-        )
-        return InTerminal(shells[-1], master, slave)
-
-    yield begin
-    for shell in shells:
-        shell.kill()
-        shell.wait()
-    os.close(slave)
-    os.close(master)
-
-
 @pytest.mark.parametrize("words", [("run",), ("run", "--plain")], ids=" ".join)
 def test_behind_the_prompt_a_box_runs_and_leaves_the_terminal_alone(
-    start_behind: Callable[..., InTerminal], config: Path, words: tuple[str, ...], rotator: Callable[..., Any]
+    start_in_terminal: StartInTerminal, config: Path, words: tuple[str, ...], rotator: Callable[..., Any]
 ) -> None:
-    box = start_behind(*words, "--config", config)
+    box = start_in_terminal(*words, "--config", config, launcher=SHELL)
     said = box.until("azimuth 0°")
     assert "SIMULATED" in said
     assert "keys:" not in said

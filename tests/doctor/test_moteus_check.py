@@ -41,28 +41,26 @@ def test_they_are_asked_and_told_nothing(moteus: Pi) -> None:
     assert (motor.mode.name, moteus.world.antenna()) == ("STOPPED", (90.0, 45.0))
 
 
-def test_a_controller_behind_a_gear_has_to_be_told_where_it_points(moteus: Pi) -> None:
-    moteus.kind("moteus")
-    moteus.world.inject("azimuth-power-cycled")
-    azimuth = moteus.found("moteus")[1]
-    assert azimuth.mark == "!"
-    assert azimuth.advice.endswith("rotator confirm azimuth DEGREES.")
-
-
-def test_a_controller_that_stopped_itself(moteus: Pi) -> None:
-    moteus.world.inject("azimuth-over-voltage")
-    azimuth = moteus.found("moteus")[1]
-    assert azimuth.ok is False
-    assert azimuth.found.endswith("stopped by itself: supply voltage too high (34)")
-    assert azimuth.advice.startswith("Braking feeds the supply")
-
-
-def test_a_silent_controller(moteus: Pi) -> None:
-    moteus.world.inject("elevation-silent")
-    _, azimuth, elevation, _ = moteus.found("moteus")
-    assert (azimuth.mark, elevation.ok) == ("✓", False)
-    assert elevation.found.startswith("elevation: moteus 2 does not answer")
-    assert "is its id.id 2?" in elevation.advice
+@pytest.mark.parametrize(
+    ("fault", "at", "mark", "found", "advice"),
+    [
+        ("azimuth-over-voltage", 1, "✗", "stopped by itself: supply voltage too high (34)", "Braking feeds the supply"),
+        ("elevation-silent", 2, "✗", "elevation: moteus 2 does not answer", "is its id.id 2?"),
+        ("azimuth-power-cycled", 1, "!", "does not know which way", "rotator confirm azimuth DEGREES."),
+    ],
+)
+def test_a_controller_that_needs_a_person(
+    moteus: Pi, fault: str, at: int, *, mark: str, found: str, advice: str
+) -> None:
+    if fault == "azimuth-power-cycled":
+        moteus.kind("moteus")  # behind a gear
+    moteus.world.inject(fault)
+    told = moteus.found("moteus")[at]
+    assert told.mark == mark
+    assert found in told.found
+    assert advice in told.advice
+    runs(moteus)
+    assert moteus.only("moteus").mark == "–"
 
 
 def test_too_few_volts(moteus: Pi) -> None:
@@ -94,11 +92,6 @@ def test_an_adapter_that_somebody_has(moteus: Pi, command: str, mark: str, words
     finding = moteus.only("moteus")
     assert finding.mark == mark
     assert words in finding.found
-
-
-def test_controllers_of_a_running_box_are_left_alone(moteus: Pi) -> None:
-    runs(moteus)
-    assert moteus.only("moteus").mark == "–"
 
 
 def test_without_the_library(moteus: Pi) -> None:

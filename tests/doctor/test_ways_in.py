@@ -52,13 +52,6 @@ def test_a_pseudo_terminal(pi: Pi) -> None:
 # --- TCP ports
 
 
-def test_a_free_port(pi: Pi, taken: int) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        free = server.getsockname()[1]
-    pi.station(tcp(f"127.0.0.1:{free}"))
-    assert (pi.only("TCP ports").mark, pi.only("TCP ports").found) == ("✓", f"127.0.0.1:{free}: free")
-
-
 def listens(pi: Pi, port: int, command: list[str]) -> None:
     pi.write("/proc/net/tcp", f"  sl  local_address ...\n   0: 0100007F:{port:04X} 00000000:0000 0A 0 0 0 0 0 7791\n")
     pi.write("/proc/512/cmdline", "".join(f"{word}\0" for word in command))
@@ -66,41 +59,24 @@ def listens(pi: Pi, port: int, command: list[str]) -> None:
     pi.machine.at("/proc/512/fd/6").symlink_to("socket:[7791]")
 
 
-def test_a_port_that_hamlib_has(pi: Pi, taken: int) -> None:
-    pi.station(tcp(f"127.0.0.1:{taken}"))
-    listens(pi, taken, ["rotctld", "-m", "1"])
-    finding = pi.only("TCP ports")
-    assert (finding.ok, finding.found) == (False, f"127.0.0.1:{taken} is taken by rotctld")
-    assert "another port" in finding.advice
-
-
 @pytest.mark.parametrize(
-    "command",
+    ("command", "asked", "mark", "found"),
     [
-        ["/opt/rotator/current/bin/python", "/opt/rotator/current/bin/rotator", "run"],
-        ["python3", "-m", "rotator", "run"],
+        ("rotctld -m 1", None, "✗", " is taken by rotctld"),
+        ("/opt/rotator/current/bin/python /opt/rotator/current/bin/rotator run", "no", "✓", ": the running box"),
+        ("python3 -m rotator run", "you may not use /run/rotator/console", "✓", ": the running box"),
+        # No box runs with this configuration: its start would fail.
+        ("rotator run", None, "✗", " is taken by a box with another configuration"),
+        # A process of another user.
+        ("", None, "!", " is taken, perhaps by the running box"),
     ],
 )
-def test_a_port_that_the_running_box_has(pi: Pi, taken: int, command: list[str]) -> None:
+def test_a_port_that_is_taken(pi: Pi, taken: int, command: str, asked: str | None, *, mark: str, found: str) -> None:
     pi.station(tcp(f"127.0.0.1:{taken}"))
-    listens(pi, taken, command)
-    pi.change(ask_box=lambda: "you may not use /run/rotator/console")
-    assert (pi.only("TCP ports").mark, pi.only("TCP ports").found) == ("✓", f"127.0.0.1:{taken}: the running box")
-
-
-def test_a_port_that_the_box_of_another_folder_has(pi: Pi, taken: int) -> None:
-    """No box runs with this configuration: its start would fail."""
-    pi.station(tcp(f"127.0.0.1:{taken}"))
-    listens(pi, taken, ["rotator", "run"])
-    found = f"127.0.0.1:{taken} is taken by a box with another configuration"
-    assert (pi.only("TCP ports").mark, pi.only("TCP ports").found) == ("✗", found)
-
-
-def test_a_port_taken_by_a_process_of_another_user(pi: Pi, taken: int) -> None:
-    pi.station(tcp(f"127.0.0.1:{taken}"))
-    finding = pi.only("TCP ports")
-    assert finding.mark == "!"
-    assert "sudo rotator doctor" in finding.advice
+    if command:
+        listens(pi, taken, command.split())
+    pi.change(ask_box=lambda: asked)
+    assert (pi.only("TCP ports").mark, pi.only("TCP ports").found) == (mark, f"127.0.0.1:{taken}{found}")
 
 
 # --- UDP ports
@@ -135,6 +111,3 @@ def test_a_udp_port_that_is_taken(pi: Pi, heard: int, command: list[str], mark: 
     pi.write("/proc/net/udp", pi.machine.at("/proc/net/tcp").read_text().replace(" 0A ", " 07 "))
     pi.machine.at("/proc/net/tcp").unlink()
     assert (pi.only("UDP ports").mark, pi.only("UDP ports").found) == (mark, f"127.0.0.1:{heard}{found}")
-
-
-# --- the state folder
