@@ -61,17 +61,6 @@ def parse(text: bytes) -> Command | None:
     return Command("AS1") if is_stop(text) or text.upper().startswith(b"AS") else None
 
 
-def encode(command: Command) -> bytes:
-    """A command as Hamlib writes it: whole degrees for a DCU-1, tenths for an RT-21."""
-    match command.azimuth_deg:
-        case None:
-            return command.verb.encode() + SEMICOLON
-        case float() as azimuth_deg if azimuth_deg % 1:
-            return f"AP1{azimuth_deg:05.1f}\r;".encode()
-        case azimuth_deg:
-            return f"AP1{azimuth_deg:03.0f};".encode()
-
-
 def azimuth_reply(azimuth_deg: float) -> bytes:
     """`;235`: exactly four bytes, 000 to 359."""
     return f";{whole(azimuth_deg) % 360:03d}".encode()

@@ -167,21 +167,6 @@ def is_whole(begun: bytes) -> bool:
     return bool(_UNENDED.fullmatch(begun.upper().decode("latin-1")))
 
 
-def encode(*words: Word) -> bytes:
-    """A line as Hamlib writes it: one decimal, LF; speeds in four digits."""
-    return (" ".join(map(_written, words)) + "\n").encode()
-
-
-def _written(word: Word) -> str:
-    match word:
-        case Word("AZ" | "EL" as verb, float() as angle_deg):
-            return verb + tenths(angle_deg)
-        case Word(verb, float() as speed_mdps):
-            return f"{verb}{speed_mdps:04.0f}"
-        case _:
-            return word.verb
-
-
 def tenths(angle_deg: float) -> str:
     """One decimal, which PstRotator needs; never `-0.0`."""
     return f"{round(angle_deg, 1) + 0.0:.1f}"

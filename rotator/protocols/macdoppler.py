@@ -37,12 +37,6 @@ def parse(datagram: bytes) -> SatelliteReport | None:
     return SatelliteReport(azimuth_deg, elevation_deg, found[3] or "")
 
 
-def encode(report: SatelliteReport, mac: str = "MacBook") -> bytes:
-    """A datagram as MacDoppler writes it."""
-    angles = f"Azimuth:{report.azimuth_deg:.2f}, Elevation:{report.elevation_deg:.2f}"
-    return f"00000001 {mac} [AzEl Rotor Report:{angles}, SatName:{report.satellite}]".encode()
-
-
 class MacDopplerSession(Talk):
     """MacDoppler on one Mac: it sends the satellite's direction and takes no answers."""
 

@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from xml.sax.saxutils import escape, unescape
+from xml.sax.saxutils import unescape
 
 from rotator.exchange.orders import Aim, Stop
 from rotator.protocols.aiming import degrees, outside
@@ -83,17 +83,6 @@ def _fields(text: str) -> dict[str, str] | None:
         fields[found[1]] = unescape(found[2])
         at = found.end()
     return fields
-
-
-def encode(command: Go | Halt) -> bytes:
-    """A message as N1MM writes it."""
-    rotor = f"<rotor>{escape(command.rotor)}</rotor>"
-    match command:
-        case Go(_, azimuth_deg, offset):
-            aimed = f"<goazi>{azimuth_deg:.1f}</goazi><offset>{offset}</offset><bidirectional>0</bidirectional>"
-            return f"<N1MMRotor>{rotor}{aimed}<freqband>14</freqband></N1MMRotor>".encode()
-        case Halt():
-            return f"<N1MMRotor><stop>{rotor}<freqband>14</freqband></stop></N1MMRotor>".encode()
 
 
 class N1mmSession(Talk):

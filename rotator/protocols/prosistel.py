@@ -82,12 +82,6 @@ def parse(text: bytes, model: Model) -> Command | None:
     return Command(axis, "G", int(found[3])) if found[2] else Command(axis, found[4])
 
 
-def encode(command: Command, model: Model) -> bytes:
-    """A command as Hamlib writes it: without leading zeros."""
-    letter = _letter(command.axis, model)
-    return b"\x02" + f"{letter}{command.verb}{'' if command.number is None else command.number}\r".encode()
-
-
 def reply(axis: Axis, verb: str, value: str, model: Model) -> bytes:
     """STX, axis, the command's letter, and `value`: the state, and before it an angle where it was asked for."""
     return b"\x02" + f"{_letter(axis, model)},{verb},{value}\r".encode()

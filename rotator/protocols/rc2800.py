@@ -58,19 +58,6 @@ def parse(line: bytes) -> Command | None:
     return None if found[2] and angle_deg is None else Command(_AXES[found[1]], angle_deg)
 
 
-def encode(command: Command) -> bytes:
-    """A line as Hamlib writes it: azimuth with six decimals, elevation in whole degrees."""
-    match command:
-        case Command(None):
-            return b"S\r"
-        case Command(axis, None):
-            return b"A\r" if axis is Axis.AZIMUTH else b"E\r"
-        case Command(Axis.AZIMUTH, angle_deg):
-            return f"A{angle_deg:f}\r".encode()
-        case Command(_, angle_deg):
-            return f"E{angle_deg:.0f}\r".encode()
-
-
 def reply(axis: Axis, angle_deg: float, *, moving: bool) -> bytes:
     """`A P= 235.0 S=9 S`: the angle in six places, the speed 9, and whether it stands or moves."""
     letter = next(letter for letter, each in _AXES.items() if each is axis)

@@ -11,9 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rotator.protocols import macdoppler, n1mm, wsjtx
-from rotator.protocols.macdoppler import SatelliteReport
-from rotator.protocols.n1mm import Go, Halt
+from rotator.protocols import wsjtx
 from rotator.protocols.wsjtx import BodyDirection
 from tests.boxes import free_udp_ports
 
@@ -118,23 +116,23 @@ def test_n1mm(start_box: Start, udp_port: int, mouth: socket.socket) -> None:
     with hearing(udp_port + 1) as ears:
         box = start_box(links=udp("n1mm", udp_port, keys))
 
-        def send(command: Go | Halt) -> None:
-            mouth.sendto(n1mm.encode(command), ("127.0.0.1", udp_port))
+        def send(message: bytes) -> None:
+            mouth.sendto(b"<N1MMRotor>" + message + b"</N1MMRotor>", ("127.0.0.1", udp_port))
 
         with closing(Rotctld(box.rotctld_port)) as rotctld:
             name, said = ears.recv(100).decode().split(" @ ")
             assert name == "G-5500"
             assert (int(said) + 10) % 3600 <= 20, "it points north at first"
-            send(Go("Beam", 200.0))
-            send(Go("G-5500", 55.0))
+            send(b"<rotor>Beam</rotor><goazi>200.0</goazi><offset>0.0</offset>")
+            send(b"<rotor>G-5500</rotor><goazi>55.0</goazi><offset>0.0</offset>")
             rotctld.until(55, 0)
             # More than a report has come while it turned; the last one is where it stands.
             name, said = ears.recv(100).decode().split(" @ ")
             while abs(int(said) / 10 - 55) > TOLERANCE_DEG:
                 name, said = ears.recv(100).decode().split(" @ ")
             assert name == "G-5500"
-            send(Go("G-5500", 350.0))
-            send(Halt("G-5500"))
+            send(b"<rotor>G-5500</rotor><goazi>350.0</goazi><offset>0.0</offset>")
+            send(b"<stop><rotor>G-5500</rotor><freqband>14</freqband></stop>")
             assert rotctld.position()[0] < 200
     assert box.stop() == 0
 
@@ -143,7 +141,8 @@ def test_macdoppler_until_a_stop_elsewhere(start_box: Start, udp_port: int, mout
     box = start_box(links=udp("macdoppler", udp_port))
 
     def report(azimuth_deg: float, elevation_deg: float) -> None:
-        mouth.sendto(macdoppler.encode(SatelliteReport(azimuth_deg, elevation_deg, "XW-2C")), ("127.0.0.1", udp_port))
+        angles = f"Azimuth:{azimuth_deg:.2f}, Elevation:{elevation_deg:.2f}"
+        mouth.sendto(f"00000001 Mac [AzEl Rotor Report:{angles}, SatName:XW-2C]".encode(), ("127.0.0.1", udp_port))
 
     with closing(Rotctld(box.rotctld_port)) as rotctld:
         rotctld.position()

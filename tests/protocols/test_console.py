@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -276,10 +275,3 @@ def test_help_is_the_table(box: BenchBox) -> None:
     assert ok == "ok"
     assert rows[::2] == [verb.usage for verb in VERBS]
     assert rows[1::2] == [f"  {verb.help}" for verb in VERBS]
-
-
-def test_the_page_holds_the_table() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "reference" / "console.md").read_text(encoding="utf-8")
-    rows = page.split("<!-- console: begin -->\n")[1].split("<!-- console: end -->\n")[0].strip().splitlines()[2:]
-    escaped = [verb.usage.replace("|", "\\|") for verb in VERBS]
-    assert rows == [f"`{usage}` | {verb.help}" for usage, verb in zip(escaped, VERBS, strict=True)]

@@ -9,7 +9,7 @@ import pytest
 
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Stop
-from rotator.protocols.dcu1 import VERBS, Command, Dcu1Session, azimuth_reply, encode, parse, tenths_reply
+from rotator.protocols.dcu1 import VERBS, Command, Dcu1Session, azimuth_reply, parse, tenths_reply
 from rotator.protocols.session import Session
 
 if TYPE_CHECKING:
@@ -73,12 +73,11 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
 
 
 @pytest.mark.parametrize(("wire", "command"), CANONICAL)
-def test_reads_what_it_writes_and_writes_what_it_reads(wire: bytes, command: Command) -> None:
+def test_commands_as_hamlib_writes_them(wire: bytes, command: Command) -> None:
     assert parse(wire.removesuffix(b";").removesuffix(b"\r")) == command
-    assert encode(command) == wire
 
 
-def test_every_row_of_the_table_is_written_and_read_above() -> None:
+def test_every_row_of_the_table_is_read_above() -> None:
     assert {verb.text for verb in VERBS} == {command.verb for _, command in CANONICAL}
 
 

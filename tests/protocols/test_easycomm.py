@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rotator.protocols import easycomm
-from rotator.protocols.easycomm import VERBS, Level, Word, encode, is_whole, parse
+from rotator.protocols.easycomm import VERBS, Level, Word, is_whole, parse
 
 HAMLIB = [
     (b"AZ235.6 EL25.0\n", (Word("AZ", 235.6), Word("EL", 25.0))),
@@ -31,12 +31,11 @@ HAMLIB = [
 
 
 @pytest.mark.parametrize(("line", "words"), HAMLIB)
-def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, words: tuple[Word, ...]) -> None:
+def test_commands_as_hamlib_writes_them(line: bytes, words: tuple[Word, ...]) -> None:
     assert parse(line.removesuffix(b"\n"), Level.III) == words
-    assert encode(*words) == line
 
 
-def test_every_row_of_the_table_is_written_and_read_above() -> None:
+def test_every_row_of_the_table_is_read_above() -> None:
     assert {verb.text for verb in VERBS} == {word.verb for _, words in HAMLIB for word in words}
 
 
@@ -85,35 +84,12 @@ def test_visual_basics_numbers(text: bytes, value: float) -> None:
 
 @pytest.mark.parametrize(
     "line",
-    [
-        b"AZ1x0 EL20.0",
-        b"AZ1 20.5 EL20.0",
-        b"AZ1 20.5EL20.0",
-        b"AZ235.5 EL2\xff.0",
-        b"AZ2\xff35.5 EL25.0",
-        b"AZ235.5 EL",
-        b"AZ235.5 E",
-        b"AZ235.5EL EL25.0",
-        b"AZ235.5 L25.0",
-        b"AZ235.5 EX25.0",
-        b"Z235.5 EL25.0",
-        b"5.5 EL25.0",
-        b"AZ235.5 \xff\xfe",
-        b"AZ235.5 EL25x",
-        b"AZ235.5 EL25. 0",
-        b"AZ235.5 EL2 5.0",
-        b"xxAZ235.5 EL",
-        b"AZ=235.5 EL=25.0",
-        b"AZx35.5 EL20.0",
-        b"AZnan EL20.0",
-        b"AZ1e999 EL20.0",
-        b"AZ 1 20.5 EL 20.0",
-        b"AZ- EL20.0",
-        b"AZ.  EL20.0",
-        b"MR 5",
-        b"PARK \xb2",
-    ],
-)
+    [b"AZ1x0 EL20.0", b"AZ1 20.5 EL20.0", b"AZ1 20.5EL20.0", b"AZ235.5 EL2\xff.0", b"AZ2\xff35.5 EL25.0", b"AZ235.5 EL",
+     b"AZ235.5 E", b"AZ235.5EL EL25.0", b"AZ235.5 L25.0", b"AZ235.5 EX25.0", b"Z235.5 EL25.0", b"5.5 EL25.0",
+     b"AZ235.5 \xff\xfe", b"AZ235.5 EL25x", b"AZ235.5 EL25. 0", b"AZ235.5 EL2 5.0", b"xxAZ235.5 EL",
+     b"AZ=235.5 EL=25.0", b"AZx35.5 EL20.0", b"AZnan EL20.0", b"AZ1e999 EL20.0", b"AZ 1 20.5 EL 20.0", b"AZ- EL20.0",
+     b"AZ.  EL20.0", b"MR 5", b"PARK \xb2"],
+)  # fmt: skip
 def test_a_damaged_line_is_good_for_its_stops_only(line: bytes) -> None:
     assert parse(line, Level.III) == ()
     assert parse(line + b" SA SE", Level.III) == (Word("SA"), Word("SE"))

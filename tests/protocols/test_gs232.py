@@ -88,27 +88,6 @@ OTHER_SPELLINGS = [
     (b"M005 010 020;", Command("M", interval_s=5, points=((10, None), (20, None)))),
 ]
 
-STOPS = [
-    b"S",
-    b"s",
-    b"S;",
-    b"S\0",
-    b"SS",
-    b"STOP",
-    b"stop!",
-    b"S\xff\xff",
-    b"S\xdf",
-    b"\0S ;",
-    b"SA",
-    b"S?\x1a",
-    b"S,",
-    b"S W",
-    b"STOP 1",
-    b"?S",
-    b"S 5",
-]
-"""A stop may be damaged in any way but by a digit joined to it."""
-
 NOTHING = [b"", b" ", b";", b" ;;\0", b"\t \t", b"\0", b"\0\0\0", b"\xff\xfe", b"\x1b\x07"]
 
 NO_ORDER = [
@@ -213,12 +192,6 @@ def test_what_is_no_command(line: bytes) -> None:
 def test_an_m_or_w_that_is_no_order(line: bytes) -> None:
     with pytest.raises(NoOrder):
         parse(line, Dialect.B)
-
-
-@pytest.mark.parametrize("dialect", Dialect)
-@pytest.mark.parametrize("line", STOPS)
-def test_a_damaged_stop_stops(line: bytes, dialect: Dialect) -> None:
-    assert parse(line, dialect) == Command("S")
 
 
 @given(st.binary(max_size=12).filter(lambda rest: not set(rest) & set(b"0123456789\r\n")), st.sampled_from(b"Ss"))

@@ -128,13 +128,6 @@ def test_any_new_m_or_w_forgets_the_list(
     assert box.status().timed_points == 0
 
 
-def test_a_new_list_takes_the_old_ones_place(box: BenchBox, session: Gs232Session) -> None:
-    session.receive(b"M005 100 120 140\rT\r")
-    box.wait(6)
-    assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
-    assert session.receive(b"W005 010 020 030 040\rN\r") == [b"+0001+0002\r\n"]
-
-
 def test_a_new_list_in_the_same_packet_as_n(new_box: type[BenchBox]) -> None:
     """Orders reach the controller a moment after the link has read them; its status tells of the old list till then."""
     box = new_box(at_once=False)
@@ -167,15 +160,6 @@ def test_a_list_that_another_link_clears_does_not_run_on(box: BenchBox, session:
     box.wait(20)
     assert wanted(box)[0] == 120
     assert box.status().timed_points == 0
-
-
-@pytest.mark.parametrize(
-    ("line", "points"),
-    [(b"M001" + b" 123" * 3800, 3800), (b"W001" + b" 123 045" * 1900, 1900)],
-)
-def test_the_longest_lists_fit(session: Gs232Session, line: bytes, points: int) -> None:
-    assert session.receive(line + b"\rN\r") == [b"+0001+%04d\r\n" % points]
-    assert session.receive(line + b" 001 001\r") == [WRONG]
 
 
 def test_the_antenna_goes_to_the_first_point_as_to_any_other(new_box: type[BenchBox]) -> None:

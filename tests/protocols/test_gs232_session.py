@@ -137,16 +137,6 @@ def test_orders_turn_the_motors_at_once_and_s_stops_them(box: BenchBox, session:
     assert box.driven == {AZIMUTH: Direction.OFF, ELEVATION: Direction.OFF}
 
 
-@pytest.mark.parametrize("stop", [b"S;\r", b"S\0\r", b"SS\r", b"STOP\r", b"\0s\xff\r", b"S\r"])
-@pytest.mark.parametrize("strict", [False, True])
-def test_a_damaged_stop_stops_both_motors(box: BenchBox, stop: bytes, strict: bool) -> None:
-    session = Gs232Session(box, Dialect.B, strict=strict)
-    session.receive(b"W300 010\r")
-    assert set(box.driven.values()) == {Direction.PLUS, Direction.MINUS}
-    assert session.receive(stop) == []
-    assert set(box.driven.values()) == {Direction.OFF}
-
-
 def test_m_leaves_the_elevation_alone(box: BenchBox, session: Gs232Session) -> None:
     session.receive(b"U\r")
     session.receive(b"M100\r")

@@ -100,11 +100,6 @@ def test_every_verb_is_found_in_any_pieces(verb: lx200.Verb) -> None:
     assert found == [Command(verb.text, verb.takes)]
 
 
-@pytest.mark.parametrize("text", [b"Q", b"Qx", b"Q\xff", b"QQ", b"GR:Q", b"Sr 12:0:Q", b"x" * 60 + b":Q"])
-def test_a_damaged_stop_stops(text: bytes) -> None:
-    assert CommandReader().feed(b":" + text + b"#") == [Command("Q")]
-
-
 @pytest.mark.parametrize("text", [b"", b"M", b"MSS", b"MX", b"GRR", b"mS", b"x" * 100, b"Xr 12:00:00"])
 def test_what_is_no_command(text: bytes) -> None:
     assert CommandReader().feed(b":" + text + b"#") == [Kind.UNKNOWN]

@@ -111,16 +111,9 @@ def test_orders(box: BenchBox, said: bytes, order: Order) -> None:
 
 @pytest.mark.parametrize(
     "said",
-    [
-        b":MS#",
-        b":Sr 12:00:00#:MS#",
-        b":Sr 12:00:00#:Sd +8x*00#:MS#",
-        b":Sd +80*00#:Sr 12:0x:00#:MS#",
-        b":Sz 100*00#:MA#",
-        b":Sz 400*00#:Sa +20*00#:MA#",
-        b":Sz 100*00#:Sd +20*00#:MA#",
-    ],
-)
+    [b":MS#", b":Sr 12:00:00#:MS#", b":Sr 12:00:00#:Sd +8x*00#:MS#", b":Sd +80*00#:Sr 12:0x:00#:MS#",
+     b":Sz 100*00#:MA#", b":Sz 400*00#:Sa +20*00#:MA#", b":Sz 100*00#:Sd +20*00#:MA#"],
+)  # fmt: skip
 def test_half_a_target_is_no_target(box: BenchBox, said: bytes) -> None:
     assert Lx200Session(box, SKY).receive(said)[-1] in (b"1", b"2No target#")
     assert box.orders == []

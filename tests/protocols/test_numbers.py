@@ -5,16 +5,13 @@ The oracle is Python's own `float` on the text with its comma made a point. Haml
 
 from __future__ import annotations
 
-import math
 import random
-import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import pytest
 
 from rotator.exchange.orders import Aim
-from rotator.protocols.aiming import degrees
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
@@ -28,7 +25,7 @@ from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
 from tests.search import examples
-from tests.spelled import NO_NUMBERS, spelled, value
+from tests.spelled import NO_NUMBERS, spelled
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -112,15 +109,3 @@ def test_what_is_no_number_moves_nothing_and_is_in_the_log(box: BenchBox, name: 
     session.receive(said.encode())
     assert box.motions == []
     assert len(box.refused) == 1
-
-
-def test_the_reader_takes_no_time() -> None:
-    begun_s = time.process_time()
-    for text in ("1" * 100_000, " " * 100_000, "0." + "0" * 100_000 + "1", "9" * 100_000 + "x", "1e" + "9" * 100_000):
-        degrees(text)
-    assert time.process_time() - begun_s < 5.0
-
-
-def test_the_oracle_is_not_the_reader() -> None:
-    assert [value(text) for text in ("1e-05", ",5", "12.", "+4,5E1")] == [1e-05, 0.5, 12.0, 45.0]
-    assert math.isclose(value("183.45678901234567"), 183.45678901234567)

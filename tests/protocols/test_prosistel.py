@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from hw.ports import Axis
 from rotator.exchange.orders import Aim, Order, Stop
-from rotator.protocols.prosistel import Command, Model, ProsistelSession, encode, parse
+from rotator.protocols.prosistel import Model, ProsistelSession
 from rotator.protocols.session import Session
 
 if TYPE_CHECKING:
@@ -106,11 +106,3 @@ def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes], model: Model) -
         if letter in axis:
             possible.append(Aim(angle_deg, None) if axis[letter] is Axis.AZIMUTH else Aim(None, angle_deg))
     assert all(order in possible for order in torn.motions)
-
-
-@given(model=st.sampled_from(Model), number=st.integers(0, 9999), azimuth=st.booleans())
-def test_round_trip(model: Model, number: int, azimuth: bool) -> None:
-    command = Command(Axis.AZIMUTH if azimuth else Axis.ELEVATION, "G", number)
-    said = encode(command, model)
-    assert said.startswith(b"\x02")
-    assert parse(said[1:-1], model) == command

@@ -10,9 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hw.ports import Axis
 from rotator.exchange.orders import Aim, Order, Stop
-from rotator.protocols.rc2800 import Command, Rc2800Session, encode, parse
+from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.session import Session
 
 if TYPE_CHECKING:
@@ -59,12 +58,6 @@ def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
     assert Rc2800Session(new_box(blind=True)).receive(b"A\rE\r") == [b"A ERR=05\r", b"E ERR=05\r"]
 
 
-@pytest.mark.parametrize("said", [b"S;\r", b"SS\r", b"S\x00\r", b"STOP\r", b"\xffS\r", b"S\n"])
-def test_a_damaged_stop_stops(box: BenchBox, said: bytes) -> None:
-    Rc2800Session(box).receive(said)
-    assert box.orders == [Stop()]
-
-
 @pytest.mark.parametrize(
     "said",
     [b"235\r", b"A\r235\r\r", b"A2x5\r", b"A-5\r", b"a235\r", b"AA235\r", b"A1234\r", b"A235", b"A 235\r", b"A235E10\r",
@@ -98,11 +91,3 @@ def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes]) -> None:
     for letter, number in re.findall(rb"(?:^|[\r\n])[^!-~]*([AE])(\d{1,3}(?:\.\d{0,6})?)(?=[\r\n])", heard):
         possible.append(Aim(float(number), None) if letter == b"A" else Aim(None, float(number)))
     assert all(order in possible for order in torn.motions)
-
-
-@given(st.floats(0, 360), st.sampled_from(Axis))
-def test_round_trip(angle_deg: float, axis: Axis) -> None:
-    command = parse(encode(Command(axis, angle_deg)).removesuffix(b"\r"))
-    assert command is not None
-    assert command.axis is axis
-    assert command.angle_deg == pytest.approx(angle_deg, abs=0.51)

@@ -14,7 +14,7 @@ from rotator.exchange.orders import Aim, Stop
 from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.orbits.earth import Site
 from rotator.protocols.session import Session
-from rotator.protocols.stellarium import Goto, StellariumSession, decode, encode
+from rotator.protocols.stellarium import StellariumSession, decode, encode
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -147,11 +147,3 @@ def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes]) -> None:
         wanted += SKY.direction(Star(ra_deg, dec_deg, Equinox.J2000))[1] >= 0
         heard = heard[20:]
     assert len(box.motions) == wanted
-
-
-def test_round_trip() -> None:
-    goto = Goto(Star(83.6, -5.4, Equinox.J2000), 1.5)
-    back = decode(encode(goto))
-    assert back is not None
-    assert back.at_s == 1.5
-    assert back.star.declination_deg == pytest.approx(-5.4, abs=1e-6)

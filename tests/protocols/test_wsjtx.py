@@ -73,17 +73,10 @@ def test_reads_what_it_writes(second_of_day: int, azimuth_tenths: int, elevation
 
 @pytest.mark.parametrize(
     "line",
-    [
-        b"17:03:22,1x3.4,045.6,Moon\n",
-        b"17:03:22,,045.6,Moon\n",
-        b"17:03:22,123.4,Moon\n",
-        b"17:03,123.4,045.6,Moon\n",
-        b"17:03:22,123.4,0-5-3,Moon\n",
-        b"17:03:22,900.0,045.6,Moon\n",
-        b"17:03:22,123.4,095.6 ,moon\n",
-        b"17:03:22,nan,045.6,Moon\n",
-    ],
-)
+    [b"17:03:22,1x3.4,045.6,Moon\n", b"17:03:22,,045.6,Moon\n", b"17:03:22,123.4,Moon\n", b"17:03,123.4,045.6,Moon\n",
+     b"17:03:22,123.4,0-5-3,Moon\n", b"17:03:22,900.0,045.6,Moon\n", b"17:03:22,123.4,095.6 ,moon\n",
+     b"17:03:22,nan,045.6,Moon\n"],
+)  # fmt: skip
 def test_a_damaged_line_is_none(line: bytes) -> None:
     assert parse(line, "Moon") is None
 

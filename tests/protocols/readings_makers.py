@@ -1,43 +1,17 @@
-"""Any bytes at all, in any pieces, in EasyComm and the protocols of SPID and Hy-Gain: no crash, no ill-formed answer,
-bounded memory, and no motion but what a second reading of the same bytes finds there.
-
-The second readings below are written from the protocols' descriptions, by hand and without the program's own parsers.
+"""What controllers of EasyComm, SPID and Hy-Gain are to do by any bytes: a second reading, written from the protocols'
+descriptions by hand, without the program's own parsers; and bytes that nearly are commands.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
-from itertools import product
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
-import pytest
-from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Jog, Order, Park
-from rotator.protocols.dcu1 import Dcu1Session
-from rotator.protocols.easycomm import Level
-from rotator.protocols.easycomm_session import EasycommSession
-from rotator.protocols.session import Box, Session
-from rotator.protocols.spid import Model
-from rotator.protocols.spid_session import SpidSession
-from tests.protocols.fed import assert_not_kept, assert_well_formed
-from tests.search import examples, some
 
-if TYPE_CHECKING:
-    from tests.protocols.conftest import BenchBox
-
-SESSIONS: dict[str, Callable[[Box], Session]] = {
-    "easycomm1": lambda box: EasycommSession(box, Level.I),
-    "easycomm2": lambda box: EasycommSession(box, Level.II, pstrotator=True),
-    "easycomm3": lambda box: EasycommSession(box, Level.III),
-    "rot1prog": lambda box: SpidSession(box, Model.ROT1PROG),
-    "rot2prog": lambda box: SpidSession(box, Model.ROT2PROG),
-    "md01": lambda box: SpidSession(box, Model.MD01),
-    "dcu1": Dcu1Session,
-}
 _EASYCOMM = rb"AZ-?\d+\.\d( EL-?\d+\.\d)?\n|EL-?\d+\.\d\n|"
 WELL_FORMED = {
     "easycomm1": _EASYCOMM[:-1],
@@ -166,56 +140,3 @@ def dcu1_motions(heard: bytes) -> list[Order]:
         if stops or (not text and command[2] == b";"):
             target = None
     return motions
-
-
-@pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=examples(100), deadline=None)
-@given(pieces=PIECES, silences=st.sets(st.integers(0, 40), max_size=5))
-def test_nothing_crashes_and_answers_are_well_formed(
-    new_box: type[BenchBox], protocol: str, pieces: list[bytes], silences: set[int]
-) -> None:
-    assert_well_formed(SESSIONS[protocol](new_box()), pieces, silences, WELL_FORMED[protocol])
-
-
-@pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=examples(200), deadline=None)
-@example(pieces=[b"Aa", b"AZ0", b"\n"])
-@example(pieces=[b"AZ1.5", b"EL2.5", b"UP3", b"\n"])
-@given(pieces=PIECES)
-def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
-    box, heard = new_box((0, 540)), b"".join(pieces)
-    session = SESSIONS[protocol](box)
-    for piece in pieces:
-        session.receive(piece)
-    match protocol:
-        case "dcu1":
-            assert box.motions == dcu1_motions(heard)
-        case "rot1prog" | "rot2prog" | "md01":
-            assert box.motions == spid_motions(heard, protocol)
-        case _:
-            possible = iter(easycomm_motions(heard, int(protocol[-1])))
-            assert all(motion in possible for motion in box.motions), "in this order"
-    if not box.motions:
-        box.wait(0.5)
-        assert box.turned == set()
-
-
-@pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=examples(50), deadline=None)
-@given(pieces=PIECES)
-def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
-    torn, whole = new_box(at_once=False), new_box(at_once=False)
-    in_pieces, at_once = SESSIONS[protocol](torn), SESSIONS[protocol](whole)
-    replies = [reply for piece in pieces for reply in in_pieces.receive(piece)]
-    assert at_once.receive(b"".join(pieces)) == replies
-    assert whole.orders == torn.orders
-
-
-@pytest.mark.search
-@pytest.mark.parametrize(
-    ("protocol", "junk"), some(list(product(SESSIONS, [b"Z", b"AZ235.0 ", b"W", b"\0", b"AP1", b"W0000"])))
-)
-def test_what_never_ends_is_not_kept(new_box: type[BenchBox], protocol: str, junk: bytes) -> None:
-    session = SESSIONS[protocol](new_box())
-    packet = (junk * 4096)[:4096]
-    assert_not_kept(session, packet, times=12)  # more than twice what it may keep
