@@ -11,8 +11,7 @@ import math
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from rotator.orbits.chance import Known, has_moved
-from rotator.orbits.rise_chance import RISE_EVERY_S
+from rotator.orbits.chance import RISE_EVERY_S, Known, has_moved
 from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target, turn_deg
 from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, rounding_deg
 

@@ -10,14 +10,13 @@ import math
 from dataclasses import dataclass, replace
 
 from rotator.control.sky.flight_plan import Antenna, plan_flight
-from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.known_path import KnownPath, Row
 from rotator.control.sky.route import Way
 from rotator.exchange.flight_order import Fly
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.passes import Pass, passes
-from rotator.orbits.rest_of_pass import rest_of_pass
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Target, expected_error_deg
 from rotator.orbits.targets import find
@@ -30,6 +29,10 @@ SATELLITE_ROW_S, SLOW_ROW_S = 1.0, 20.0
 """Seconds between two rows of the path."""
 JUDGED_S = 60.0
 """Samples of the expected error in a pass."""
+CLOCK_ASIDE_S = 10.0
+"""Seconds before now at which the rest of a pass begins, for the orders of a clock that is behind."""
+AFTER_SET_S = 30.0
+"""Programs send for a while after the target has set."""
 
 
 class NeverRises(Exception):  # noqa: N818 - a sentence about a target
@@ -106,13 +109,24 @@ def flight_between(
 def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
     """The rest of a present pass that a program already sends. Raises NotThere, Unknown."""
     target = wanted.target()
-    rest = rest_of_pass(target, now.utc_s)
-    path = KnownPath(
-        tuple((utc_s - now.apart_s, azimuth_deg, elevation_deg) for utc_s, azimuth_deg, elevation_deg in rest.rows)
-    )
+    rows, sets_s = rest_of_pass(target, now.utc_s)
+    path = KnownPath(tuple((utc_s - now.apart_s, *direction_deg) for utc_s, *direction_deg in rows))
     order = plan_flight(target.name, path, antenna, now.loop_s).order
-    error_deg = _error_deg(target, now.utc_s, rest.sets_s + JUDGED_S, now.clock_s)
-    return replace(order, sets_s=rest.sets_s - now.apart_s, expected_error_deg=error_deg)
+    error_deg = _error_deg(target, now.utc_s, sets_s + JUDGED_S, now.clock_s)
+    return replace(order, sets_s=sets_s - now.apart_s, expected_error_deg=error_deg)
+
+
+def rest_of_pass(target: Target, utc_s: float) -> tuple[list[Row], float]:
+    """Each second of it: the moment in UTC, azimuth, elevation; and when it sets. Raises NotThere."""
+    rows: list[Row] = []
+    last_up_s, at_s = utc_s, utc_s - CLOCK_ASIDE_S
+    while at_s <= min(last_up_s + AFTER_SET_S, utc_s + LONGEST_S):
+        seen = target.sight(at_s)
+        rows.append((at_s, seen.azimuth_deg, seen.elevation_deg))
+        if seen.elevation_deg > 0:
+            last_up_s = max(last_up_s, at_s)
+        at_s += 1.0
+    return rows, last_up_s
 
 
 def target_path(target: Target, begin_s: float, end_s: float, apart_s: float) -> KnownPath:

@@ -16,10 +16,10 @@ from rotator.exchange.program_clock import DEPARTS_DEG
 from rotator.exchange.sources import Source
 from rotator.orbits.passes import Pass, passes
 from rotator.orbits.recognition import Departed, Recognised, StreamWatch
-from rotator.orbits.rest_of_pass import rest_of_pass
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight
 from rotator.orbits.stream_fit import CLOCKS_S, ORDERS
+from rotator.tracking.next_flight import rest_of_pass
 from tests.orbits.streams import PROGRAM, News, Path, great_circle, heard, orders, path_of, whole
 from tests.orbits.test_satellite import FLYING, PARIS
 from tests.search import examples
@@ -346,11 +346,11 @@ def test_the_path_to_be_flown_begins_before_the_orders_and_ends_after_the_set() 
     flown = pass_of("ISS")
     assert flown.aos_s is not None
     assert flown.los_s is not None
-    rest = rest_of_pass(SATELLITES["ISS"], flown.aos_s + 10.0)
-    assert rest.rows[0][0] <= flown.aos_s + 10.0 - 6.0
-    assert rest.sets_s == pytest.approx(flown.los_s, abs=1.0)
-    assert rest.rows[-1][0] == pytest.approx(flown.los_s + 30.0, abs=1.5)
-    assert rest.rows[-1][2] < 0
+    rows, sets_s = rest_of_pass(SATELLITES["ISS"], flown.aos_s + 10.0)
+    assert rows[0][0] <= flown.aos_s + 10.0 - 6.0
+    assert sets_s == pytest.approx(flown.los_s, abs=1.0)
+    assert rows[-1][0] == pytest.approx(flown.los_s + 30.0, abs=1.5)
+    assert rows[-1][2] < 0
 
 
 def test_the_flight_in_its_place_is_no_order_of_the_program(followed: StreamWatch) -> None:

@@ -9,9 +9,9 @@ from itertools import pairwise
 import pytest
 
 from benchmarks.recognition import catalogue
+from rotator.orbits.chance import STANDING, lift_off_chance, rise_chance, standing_chance
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import passes
-from rotator.orbits.rise_chance import STANDING, lift_off_chance, rise_chance, standing_chance
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Sight
 from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath
