@@ -110,7 +110,9 @@ def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
     """The rest of a present pass that a program already sends. Raises NotThere, Unknown."""
     target = wanted.target()
     rows, sets_s = rest_of_pass(target, now.utc_s)
-    path = KnownPath(tuple((utc_s - now.apart_s, *direction_deg) for utc_s, *direction_deg in rows))
+    path = KnownPath(
+        tuple((utc_s - now.apart_s, azimuth_deg, elevation_deg) for utc_s, azimuth_deg, elevation_deg in rows)
+    )
     order = plan_flight(target.name, path, antenna, now.loop_s).order
     error_deg = _error_deg(target, now.utc_s, sets_s + JUDGED_S, now.clock_s)
     return replace(order, sets_s=sets_s - now.apart_s, expected_error_deg=error_deg)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -14,9 +13,8 @@ from rotator.exchange.sources import Refusal
 from rotator.exchange.status import AxisStatus, Status
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
-from rotator.protocols.reference.programs import PROGRAMS, Program, programs_table
+from rotator.protocols.reference.programs import PROGRAMS, Program
 
-PAGE = Path(__file__).parents[3] / "docs" / "reference" / "programs.md"
 PLACES: dict[str, dict[str, str]] = {
     "pstrotator": {"udp": "127.0.0.1:12000"},
     "n1mm": {"udp": "127.0.0.1:12040", "rotor_name": "mast"},
@@ -44,14 +42,6 @@ class Notebook:
 
     def order(self, order: Order) -> None:
         self.orders.append(order)
-
-
-def test_the_page_holds_the_table() -> None:
-    """If this fails, paste what rotator.protocols.reference.programs.programs_table() returns."""
-    between = (
-        PAGE.read_text(encoding="utf-8").split("<!-- programs: begin -->\n")[1].split("<!-- programs: end -->\n")[0]
-    )
-    assert between == f"\n{programs_table()}\n"
 
 
 def test_every_protocol_has_its_program() -> None:
