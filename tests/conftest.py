@@ -10,6 +10,7 @@ import shutil
 import signal
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from pathlib import Path
 
 import pytest
@@ -77,6 +78,24 @@ def pytest_collection_finish() -> None:
     """Thousands of tests stay in memory to the end: the garbage collector does not look at them again and again."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """An `async def` test has an event loop of its own. A fixture that is an asynchronous context is entered there."""
+    if not inspect.iscoroutinefunction(pyfuncitem.obj):
+        return None
+
+    async def run() -> None:
+        async with AsyncExitStack() as entered:
+            values = {name: pyfuncitem.funcargs[name] for name in inspect.signature(pyfuncitem.obj).parameters}
+            for name, value in values.items():
+                if isinstance(value, AbstractAsyncContextManager):
+                    values[name] = await entered.enter_async_context(value)
+            await pyfuncitem.obj(**values)
+
+    asyncio.run(run())
+    return True
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -21,8 +21,7 @@ from rotator.config import toml_text
 from rotator.config.model import Config
 from rotator.protocols.methods import WrongValuesError
 from rotator.web.box_file import Begun, BoxFile
-from rotator.web.entrance import Entrance, RefusedError, bytes_of, error
-from rotator.web.help_api import download
+from rotator.web.entrance import Entrance, RefusedError, bytes_of, download, error
 from rotator.web.route import PAIRED, Route, get, post, refusals
 from rotator.web.schema import ZIP, in_address, the
 

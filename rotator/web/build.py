@@ -103,7 +103,7 @@ def build_page(
         from rotator.web.box_file import BoxFile  # noqa: PLC0415
         from rotator.web.elements import ElementFiles  # noqa: PLC0415
         from rotator.web.flown import FlownPictures  # noqa: PLC0415
-        from rotator.web.help_build import help_groups  # noqa: PLC0415
+        from rotator.web.help_api import help_groups  # noqa: PLC0415
         from rotator.web.plan import Plan  # noqa: PLC0415
         from rotator.web.setting_up import SettingUpApi  # noqa: PLC0415
         from rotator.web.settings import SettingsApi  # noqa: PLC0415

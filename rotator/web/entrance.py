@@ -20,6 +20,7 @@ from rotator.web.doors import Doors
 from rotator.web.pairing import LASTS_S, Pairings
 from rotator.web.pairing_code import NotPairedError
 from rotator.web.route import MOST_BODY, Handler
+from rotator.web.schema import ZIP
 
 COOKIE = "rotator"
 _TOO_LONG = "this request has a body of at most {} bytes"
@@ -146,6 +147,12 @@ def error(status: int, reason: str) -> web.Response:
     if status == web.HTTPRequestEntityTooLarge.status_code:
         answer.force_close()
     return answer
+
+
+def download(packed: bytes, name: str) -> web.Response:
+    """A zip that the browser keeps as a file."""
+    headers = {"Content-Disposition": f'attachment; filename="{name}"'}
+    return web.Response(body=packed, content_type=ZIP["contentMediaType"], headers=headers)
 
 
 async def add_headers(_request: web.Request, answer: web.StreamResponse) -> None:

@@ -1,11 +1,13 @@
-"""The routes that help to find a fault: the doctor, the bytes of the links, and a file for another person.
+"""What helps to find a fault: the doctor, the bytes of the links, a file for another person, and the backup.
 
-Knows HTTP, and who may see what. The parts beside this file make the content.
+Knows HTTP, who may see what, and which secrets the box holds. The parts beside this file make the content.
 """
 
 from __future__ import annotations
 
 import asyncio
+import json
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,12 +15,21 @@ from typing import Annotated, Any
 from aiohttp import web
 from typing_extensions import TypedDict
 
+from rotator.config.load import SIMULATED_FILE
+from rotator.config.model import Config
+from rotator.exchange.sources import PAGE, Source
+from rotator.web.api import Group
+from rotator.web.backup_api import BackupApi
+from rotator.web.box_file import BoxFile
 from rotator.web.computed import Computed, of_the_program
-from rotator.web.entrance import Entrance, computed, error
-from rotator.web.redaction import Redaction
+from rotator.web.diagnostics import Known, diagnostics, read_text
+from rotator.web.entrance import Entrance, computed, download, error
+from rotator.web.live import dropped_if_slow
+from rotator.web.logs import LogLines
+from rotator.web.pairing import Pairings
+from rotator.web.redaction import Redaction, secrets_of, spellings_of_place
 from rotator.web.route import COMPUTING, PAIRED, Route, get, live, refusals
 from rotator.web.schema import ZIP, in_address, the
-from rotator.web.wire_watch import MESSAGES, MOST_WATCHERS, WireWatch
 from rotator.web.wires import WireLog
 
 DOCTOR_KEPT_S = 5.0
@@ -27,6 +38,19 @@ WIRES = "A WebSocket: the bytes of the links, in the lines of `rotator monitor`"
 DIAGNOSTICS = "A zip with what another person needs to see what is wrong, without secrets"
 WITH_FAULTS = (0, 1, 2)
 """The exit codes with which `rotator doctor` has printed its report."""
+MOST_AT_ONCE = 200
+EVERY_S = 0.2
+TAKES_S = 15.0
+"""Seconds: a browser that needs longer to take a message is dropped."""
+MOST_WATCHERS = 8
+MESSAGES = """The box sends, as soon as there are new lines:
+
+    {"lines": ["…", "…"], "upto": 480, "missed": 0}
+
+`lines` are as `rotator monitor` prints them, the oldest first. `upto` is the number of the line after them: after a
+lost connection ask for `?after=480`. `missed`: so many lines before these are gone. You send
+nothing: the box closes then.
+"""
 
 
 class _Check(TypedDict):
@@ -54,6 +78,46 @@ def doctor(
 
     words = of_the_program("doctor", "--json", "--config", str(path))
     return Computed(words, clock, named="the checks", kept_s=kept_s, shaped=shaped, good=WITH_FAULTS)
+
+
+class WireWatch:
+    """The browsers that watch. `may_look` is called before each message, because a pairing may have ended."""
+
+    def __init__(self, wires: WireLog) -> None:
+        self._wires = wires
+        self._watchers = 0
+
+    @property
+    def is_full(self) -> bool:
+        return self._watchers >= MOST_WATCHERS
+
+    async def serve(self, socket: web.WebSocketResponse, upto: int | None, may_look: Callable[[], bool]) -> None:
+        """Serve until the browser leaves or loses its right to look. `upto`: number of its next line; None: all."""
+        self._watchers += 1
+        sender = asyncio.create_task(self._send(socket, upto, may_look), name="page: wires")
+        try:
+            async for _ in socket:
+                return  # the page never sends a message here
+        finally:
+            sender.cancel()
+            await asyncio.gather(sender, return_exceptions=True)
+            self._watchers -= 1
+
+    async def _send(self, socket: web.WebSocketResponse, upto: int | None, may_look: Callable[[], bool]) -> None:
+        with dropped_if_slow(socket):
+            while not socket.closed:
+                if not may_look():
+                    await socket.close()
+                    return
+                new = self._wires.after(upto or 0, MOST_AT_ONCE)
+                if new.lines or upto is None:
+                    # Lines from before its connection do not count as missed.
+                    missed = 0 if upto is None else new.missed
+                    async with asyncio.timeout(TAKES_S):
+                        await socket.send_str(json.dumps({"lines": new.lines, "upto": new.upto, "missed": missed}))
+                    upto = new.upto
+                if len(new.lines) < MOST_AT_ONCE:
+                    await asyncio.sleep(EVERY_S)
 
 
 class HelpApi:
@@ -98,7 +162,28 @@ class HelpApi:
         return socket
 
 
-def download(packed: bytes, name: str) -> web.Response:
-    """A zip that the browser keeps as a file."""
-    headers = {"Content-Disposition": f'attachment; filename="{name}"'}
-    return web.Response(body=packed, content_type=ZIP["contentMediaType"], headers=headers)
+def help_groups(
+    config: Config,
+    file: BoxFile,
+    place: tuple[float, float] | None,
+    *,
+    pairings: Pairings,
+    lines: LogLines,
+    wires: WireLog,
+) -> Sequence[Group]:
+    """`place`: latitude and longitude of the station; None: not known."""
+    secrets = secrets_of(config)
+    hidden = secrets | (spellings_of_place(*place) if place else set())
+
+    def pack(examined: dict[str, Any]) -> bytes:
+        paired = pairings.all()
+        # The file goes to a stranger: it has numbers in place of the names of people's browsers.
+        names = {each.name: str(Source(PAGE, each.number)) for each in paired}
+        known = Known(config, file.status(), examined, lines.kept(), wires.recording(), len(paired), time.time())
+        return diagnostics(known, Redaction(hidden, names), read_text)
+
+    checks = doctor(file.file or SIMULATED_FILE, Redaction(secrets), time.monotonic, time.time, kept_s=DOCTOR_KEPT_S)
+    return (
+        lambda entrance: HelpApi(entrance, checks, wires, pack).routes(),
+        lambda entrance: BackupApi(entrance, file, config, time.time).routes(),
+    )

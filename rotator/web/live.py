@@ -11,7 +11,8 @@ import json
 import logging
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 from aiohttp import WSMsgType, web
@@ -20,7 +21,6 @@ from rotator.exchange.foreign import json_of
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.panel_words import TURNS
 from rotator.web.holding import LEASE_S, Holding, Pictures
-from rotator.web.slow_reader import dropped_if_slow
 
 log = logging.getLogger(__name__)
 
@@ -61,6 +61,19 @@ where it concerns one:
 
     {{"refused": "the connection is too slow to turn the antenna by hand", "press": 1}}
 """
+
+
+@contextmanager
+def dropped_if_slow(socket: web.WebSocketResponse) -> Iterator[None]:
+    """While messages are sent within this context, a timeout or a lost connection ends the transport.
+
+    The task that reads from the browser ends with the transport.
+    """
+    try:
+        yield
+    except (TimeoutError, ConnectionError, RuntimeError):
+        if (transport := socket.get_extra_info("transport")) is not None:
+            transport.abort()
 
 
 class Live:

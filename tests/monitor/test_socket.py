@@ -69,90 +69,64 @@ async def line(reader: asyncio.StreamReader) -> str:
     return (await asyncio.wait_for(reader.readline(), PATIENCE_S)).decode()
 
 
-def test_a_watcher_hears_the_greeting_and_then_every_line(box: Box) -> None:
-    async def talk() -> None:
-        async with running(box), watcher(box) as one, watcher(box) as other:
-            await box.heard_by(2)
-            box.say("18:03:22.114 gs232b#1 > C2\\r")
-            for each in (one, other):
-                assert [await line(each) for _ in range(3)] == [
-                    "# rotator 1.0\n",
-                    "# link gs232b\n",
-                    "18:03:22.114 gs232b#1 > C2\\r\n",
-                ]
-
-    asyncio.run(talk())
+async def test_a_watcher_hears_the_greeting_and_then_every_line(box: Box) -> None:
+    async with running(box), watcher(box) as one, watcher(box) as other:
+        await box.heard_by(2)
+        box.say("18:03:22.114 gs232b#1 > C2\\r")
+        for each in (one, other):
+            assert [await line(each) for _ in range(3)] == [
+                "# rotator 1.0\n",
+                "# link gs232b\n",
+                "18:03:22.114 gs232b#1 > C2\\r\n",
+            ]
 
 
-def test_it_is_the_owner_s_and_the_group_s_and_gone_at_the_end(box: Box) -> None:
-    async def talk() -> None:
-        async with running(box):
-            assert stat.S_IMODE(box.path.stat().st_mode) == 0o660
-        assert not box.path.exists()
-
-    asyncio.run(talk())
+async def test_it_is_the_owner_s_and_the_group_s_and_gone_at_the_end(box: Box) -> None:
+    async with running(box):
+        assert stat.S_IMODE(box.path.stat().st_mode) == 0o660
+    assert not box.path.exists()
 
 
-def test_one_that_goes_is_forgotten(box: Box) -> None:
-    async def talk() -> None:
-        async with running(box):
-            async with watcher(box):
-                await box.heard_by(1)
-            await box.heard_by(0)
-            box.say("to nobody")
+async def test_what_it_says_is_not_heard(box: Box) -> None:
+    async with running(box):
+        reader, writer = await asyncio.open_unix_connection(str(box.path))
+        writer.write(b"W235 025\r" * 1000)
+        await box.heard_by(1)
+        box.say("still there")
+        assert [await line(reader) for _ in range(3)][-1] == "still there\n"
+        writer.transport.abort()
 
-    asyncio.run(talk())
+
+async def test_a_slow_one_is_told_how_much_it_missed_and_costs_a_bounded_amount(box: Box) -> None:
+    async with running(box), watcher(box) as slow, watcher(box):
+        await box.heard_by(2)
+        said = 40_000
+        for number in range(said):
+            box.say(f"{number:06d} {'x' * 50}")
+        heard: list[str] = []
+        box.say("last")
+        async with asyncio.timeout(PATIENCE_S):
+            while not heard or heard[-1] != "after\n":
+                heard.append(await line(slow))
+                if len(heard) == 4000:
+                    box.say("after")
+        lines = [text for text in heard if text[0].isdigit()]
+        (missed,) = [text for text in heard if "left out" in text]
+        assert int(missed.split()[1]) == said + 1 - len(lines)
+        assert lines == [f"{number:06d} {'x' * 50}\n" for number in range(len(lines))]
+        assert heard.index(missed) == len(heard) - 2
+        assert len(lines) * 58 < 3 * UNREAD_LIMIT, "the kernel's buffers and ours"
 
 
-def test_what_it_says_is_not_heard(box: Box) -> None:
-    async def talk() -> None:
-        async with running(box):
-            reader, writer = await asyncio.open_unix_connection(str(box.path))
-            writer.write(b"W235 025\r" * 1000)
-            await box.heard_by(1)
-            box.say("still there")
-            assert [await line(reader) for _ in range(3)][-1] == "still there\n"
+async def test_one_watcher_too_many_is_told_so(box: Box) -> None:
+    async with running(box):
+        ends = [await asyncio.open_unix_connection(str(box.path)) for _ in range(MOST_WATCHERS)]
+        await box.heard_by(MOST_WATCHERS)
+        async with watcher(box) as late:
+            assert await line(late) == f"# {MOST_WATCHERS} are watching already\n"
+            assert await line(late) == ""
+        for _, writer in ends:
             writer.transport.abort()
-
-    asyncio.run(talk())
-
-
-def test_a_slow_one_is_told_how_much_it_missed_and_costs_a_bounded_amount(box: Box) -> None:
-    async def talk() -> None:
-        async with running(box), watcher(box) as slow, watcher(box):
-            await box.heard_by(2)
-            said = 40_000
-            for number in range(said):
-                box.say(f"{number:06d} {'x' * 50}")
-            heard: list[str] = []
-            box.say("last")
-            async with asyncio.timeout(PATIENCE_S):
-                while not heard or heard[-1] != "after\n":
-                    heard.append(await line(slow))
-                    if len(heard) == 4000:
-                        box.say("after")
-            lines = [text for text in heard if text[0].isdigit()]
-            (missed,) = [text for text in heard if "left out" in text]
-            assert int(missed.split()[1]) == said + 1 - len(lines)
-            assert lines == [f"{number:06d} {'x' * 50}\n" for number in range(len(lines))]
-            assert heard.index(missed) == len(heard) - 2
-            assert len(lines) * 58 < 3 * UNREAD_LIMIT, "the kernel's buffers and ours"
-
-    asyncio.run(talk())
-
-
-def test_one_watcher_too_many_is_told_so(box: Box) -> None:
-    async def talk() -> None:
-        async with running(box):
-            ends = [await asyncio.open_unix_connection(str(box.path)) for _ in range(MOST_WATCHERS)]
-            await box.heard_by(MOST_WATCHERS)
-            async with watcher(box) as late:
-                assert await line(late) == f"# {MOST_WATCHERS} are watching already\n"
-                assert await line(late) == ""
-            for _, writer in ends:
-                writer.transport.abort()
-
-    asyncio.run(talk())
 
 
 # --- places that cannot be used: the box goes on without
@@ -162,25 +136,19 @@ async def _ends_by_itself(box: Box) -> None:
     await asyncio.wait_for(box.socket.run(), PATIENCE_S)
 
 
-def test_another_box_has_the_place(box: Box, caplog: pytest.LogCaptureFixture) -> None:
-    async def talk() -> None:
-        async with running(box):
-            await _ends_by_itself(Box(box.path))
-            assert box.path.is_socket(), "the first one keeps it"
-
-    asyncio.run(talk())
+async def test_another_box_has_the_place(box: Box, caplog: pytest.LogCaptureFixture) -> None:
+    async with running(box):
+        await _ends_by_itself(Box(box.path))
+        assert box.path.is_socket(), "the first one keeps it"
     assert caplog.messages == [f"{box.path}: another box uses it; this one cannot be monitored"]
 
 
-def test_what_a_dead_box_left_is_replaced(box: Box) -> None:
-    async def talk() -> None:
-        box.path.parent.mkdir()
-        left = await asyncio.start_unix_server(lambda *_: None, str(box.path))
-        left.close()
-        async with running(box), watcher(box) as one:
-            assert await line(one) == "# rotator 1.0\n"
-
-    asyncio.run(talk())
+async def test_what_a_dead_box_left_is_replaced(box: Box) -> None:
+    box.path.parent.mkdir()
+    left = await asyncio.start_unix_server(lambda *_: None, str(box.path))
+    left.close()
+    async with running(box), watcher(box) as one:
+        assert await line(one) == "# rotator 1.0\n"
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
-from rotator.links.wire import KEPT_BYTES, Wire
+from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import HEADS, Way
 from rotator.protocols.gs232 import Dialect
@@ -80,15 +80,6 @@ def test_the_wire_shows_what_came_and_went_without_a_listener_too(room: Room) ->
     assert room.wire.last_in == b"C2\rB\r", "another link's bytes are not shown here"
 
 
-def test_the_wire_keeps_only_the_latest_bytes(room: Room) -> None:
-    for byte in range(256):
-        room.tap.note(GS232, Way.IN, bytes([byte]), text=False)
-        room.tap.note(GS232, Way.OUT, bytes([byte]) * 3, text=False)
-    assert len(room.wire.last_in) == len(room.wire.last_out) == KEPT_BYTES
-    assert room.wire.last_in.endswith(b"\xfd\xfe\xff")
-    assert room.wire.last_out.endswith(b"\xff\xff\xff")
-
-
 def test_an_answer_to_silence_and_a_connection_that_ends(room: Room) -> None:
     listen(room)
     session = TappedSession(RotctldSession(Example()), room.tap, ROTCTLD)
@@ -144,13 +135,6 @@ def test_a_new_day_is_said(room: Room) -> None:
     room.wait(3)
     room.tap.note(GS232, Way.IN, b"C2\r", text=True)
     assert room.told[-2:] == ["# 2026-11-22", r"00:00:01.000 gs232b#1 > C2\r"]
-
-
-def test_a_position_that_is_not_known_is_not_told(room: Room) -> None:
-    room.status = replace(room.status, azimuth=replace(room.status.azimuth, angle_deg=None))
-    listen(room)
-    room.tap.note(GS232, Way.IN, b"C2\r", text=True)
-    assert not [line for line in room.told if line.startswith("# at")]
 
 
 def test_nobody_listens_and_nothing_is_asked(room: Room) -> None:

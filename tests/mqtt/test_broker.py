@@ -80,151 +80,125 @@ def answered(client: Listener, method: str) -> list[dict[str, Any]]:
     return [each for each in said if each["method"] == method]
 
 
-def test_it_tells_what_rotator_where_tells_and_obeys_the_methods_of_the_page(
+async def test_it_tells_what_rotator_where_tells_and_obeys_the_methods_of_the_page(
     tmp_path: Path, broker: NewBroker, listener: NewListener
 ) -> None:
     port = free_port()
     broker(port)
-
-    async def main() -> None:
-        client = listener(port)
-        async with box(tmp_path, port, 'may = "move"') as running:
-            await until(lambda: bool(client.latest("rotator/status")))
-            assert client.latest("rotator/availability") == "online"
-            assert json.loads(client.latest("rotator/status")).keys() == as_object(running.status).keys()
-            assert (
-                json.loads(client.latest("homeassistant/sensor/rotator/azimuth/config"))["unit_of_measurement"] == "°"
-            )
-            await asyncio.to_thread(client.say, "rotator/do/point", '{"azimuth_deg": 90, "elevation_deg": 30}')
-            await until(lambda: running.status.azimuth.at_target and running.status.elevation.at_target)
-            assert running.world.antenna()[0] == pytest.approx(90.0, abs=5.0)
-            assert running.status.controlled_by == "mqtt"
-            await until(lambda: abs(json.loads(client.latest("rotator/status"))["azimuth"]["angle_deg"] - 90.0) < 5.0)
-            await asyncio.to_thread(client.say, "rotator/do/stop", "")
-            await until(lambda: running.status.latched == "mqtt")
-            await asyncio.to_thread(client.say, "rotator/do/point", '{"azimuth_deg": 10, "elevation_deg": 30}')
-            await until(lambda: len(answered(client, "point")) == 2)
-            assert answered(client, "point")[1]["error"] == "stopped by mqtt: nothing moves until resume"
-        await until(lambda: client.latest("rotator/availability") == "offline")
-
-    asyncio.run(main())
+    client = listener(port)
+    async with box(tmp_path, port, 'may = "move"') as running:
+        await until(lambda: bool(client.latest("rotator/status")))
+        assert client.latest("rotator/availability") == "online"
+        assert json.loads(client.latest("rotator/status")).keys() == as_object(running.status).keys()
+        assert json.loads(client.latest("homeassistant/sensor/rotator/azimuth/config"))["unit_of_measurement"] == "°"
+        await asyncio.to_thread(client.say, "rotator/do/point", '{"azimuth_deg": 90, "elevation_deg": 30}')
+        await until(lambda: running.status.azimuth.at_target and running.status.elevation.at_target)
+        assert running.world.antenna()[0] == pytest.approx(90.0, abs=5.0)
+        assert running.status.controlled_by == "mqtt"
+        await until(lambda: abs(json.loads(client.latest("rotator/status"))["azimuth"]["angle_deg"] - 90.0) < 5.0)
+        await asyncio.to_thread(client.say, "rotator/do/stop", "")
+        await until(lambda: running.status.latched == "mqtt")
+        await asyncio.to_thread(client.say, "rotator/do/point", '{"azimuth_deg": 10, "elevation_deg": 30}')
+        await until(lambda: len(answered(client, "point")) == 2)
+        assert answered(client, "point")[1]["error"] == "stopped by mqtt: nothing moves until resume"
+    await until(lambda: client.latest("rotator/availability") == "offline")
 
 
-def test_without_leave_it_may_stop_and_no_more(tmp_path: Path, broker: NewBroker, listener: NewListener) -> None:
+async def test_without_leave_it_may_stop_and_no_more(tmp_path: Path, broker: NewBroker, listener: NewListener) -> None:
     port = free_port()
     broker(port)
-
-    async def main() -> None:
-        client = listener(port)
-        # Kept from a time when it was online.
-        await asyncio.to_thread(client.say, "rotator/do/stop", "PRESS", retain=True)
-        async with box(tmp_path, port) as running:
-            await until(lambda: bool(answered(client, "stop")))
-            assert "without retain" in answered(client, "stop")[0]["error"]
-            assert running.status.latched == ""
-            # What it may not order, the box does not even hear.
-            await asyncio.to_thread(client.say, "rotator/do/point", '{"azimuth_deg": 90, "elevation_deg": 30}')
-            await asyncio.to_thread(client.say, "rotator/do/stop", "")
-            await until(lambda: running.status.latched == "mqtt")
-            assert not answered(client, "point")
-            assert running.status.wanted_azimuth_deg is None
-
-    asyncio.run(main())
+    client = listener(port)
+    # Kept from a time when it was online.
+    await asyncio.to_thread(client.say, "rotator/do/stop", "PRESS", retain=True)
+    async with box(tmp_path, port) as running:
+        await until(lambda: bool(answered(client, "stop")))
+        assert "without retain" in answered(client, "stop")[0]["error"]
+        assert running.status.latched == ""
+        # What it may not order, the box does not even hear.
+        await asyncio.to_thread(client.say, "rotator/do/point", '{"azimuth_deg": 90, "elevation_deg": 30}')
+        await asyncio.to_thread(client.say, "rotator/do/stop", "")
+        await until(lambda: running.status.latched == "mqtt")
+        assert not answered(client, "point")
+        assert running.status.wanted_azimuth_deg is None
 
 
-def test_a_broker_that_goes_takes_its_jog_along_and_is_found_again(
+async def test_a_broker_that_goes_takes_its_jog_along_and_is_found_again(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture
 ) -> None:
     port = free_port()
     first = broker(port)
-
-    async def main() -> None:
-        client = listener(port)
-        async with box(tmp_path, port, 'may = "move"') as running:
-            await until(lambda: client.latest("rotator/availability") == "online")
-            await asyncio.to_thread(client.say, "rotator/do/jog", '{"turn": "cw", "seconds": 5}')
-            await until(lambda: running.world.drives() != OFF)
-            first.stop()
-            await until(lambda: running.world.drives() == OFF)
-            assert running.app.wires[-1].state != "connected"
-            first.start()
-            again = listener(port)
-            await until(lambda: again.latest("rotator/availability") == "online")
-            assert running.world.drives() == OFF, "nothing moves until it is asked for anew"
-
-    asyncio.run(main())
+    client = listener(port)
+    async with box(tmp_path, port, 'may = "move"') as running:
+        await until(lambda: client.latest("rotator/availability") == "online")
+        await asyncio.to_thread(client.say, "rotator/do/jog", '{"turn": "cw", "seconds": 5}')
+        await until(lambda: running.world.drives() != OFF)
+        first.stop()
+        await until(lambda: running.world.drives() == OFF)
+        assert running.app.wires[-1].state != "connected"
+        first.start()
+        again = listener(port)
+        await until(lambda: again.latest("rotator/availability") == "online")
+        assert running.world.drives() == OFF, "nothing moves until it is asked for anew"
     assert len([each for each in caplog.messages if "it is tried again" in each]) <= 3
 
 
-def test_a_box_whose_broker_refuses_it_runs_and_says_so(
+async def test_a_box_whose_broker_refuses_it_runs_and_says_so(
     tmp_path: Path, broker: NewBroker, caplog: pytest.LogCaptureFixture
 ) -> None:
     port = free_port()
     broker(port, "allow_anonymous false")
-
-    async def main() -> None:
-        async with box(tmp_path, port, 'user = "box"\npassword = "tops3cret"') as running:
-            await until(lambda: "it refuses the box: Not authorized" in caplog.text)
-            assert running.status.azimuth.fault is None
-
-    asyncio.run(main())
+    async with box(tmp_path, port, 'user = "box"\npassword = "tops3cret"') as running:
+        await until(lambda: "it refuses the box: Not authorized" in caplog.text)
+        assert running.status.azimuth.fault is None
     assert "tops3cret" not in caplog.text
 
 
 LONG = "x" * (MOST_BYTES + 1)
 
 
-def test_two_boxes_on_one_broker_hear_each_its_own_orders_and_both_the_stop_of_all(
+async def test_two_boxes_on_one_broker_hear_each_its_own_orders_and_both_the_stop_of_all(
     tmp_path: Path, broker: NewBroker, listener: NewListener
 ) -> None:
     port = free_port()
     broker(port)
     north, south = tmp_path / "north", tmp_path / "south"
-
-    async def main() -> None:
-        client = listener(port)
-        async with box(north, port, 'box = "north"') as one, box(south, port, 'box = "south"') as other:
-            await until(lambda: client.latest("rotator/north/availability") == "online")
-            await until(lambda: client.latest("rotator/south/availability") == "online")
-            await asyncio.to_thread(client.say, "rotator/north/do/stop", "")
-            await until(lambda: one.status.latched == "mqtt")
-            assert other.status.latched == ""
-            await asyncio.to_thread(client.say, "rotator/all/stop", "at once!")
-            await until(lambda: other.status.latched == "mqtt")
-            assert client.latest("homeassistant/button/rotator_north/stop/config")
-        assert client.latest("rotator/north/availability") == "offline"
-
     for folder in (north, south):
         folder.mkdir()
-    asyncio.run(main())
+    client = listener(port)
+    async with box(north, port, 'box = "north"') as one, box(south, port, 'box = "south"') as other:
+        await until(lambda: client.latest("rotator/north/availability") == "online")
+        await until(lambda: client.latest("rotator/south/availability") == "online")
+        await asyncio.to_thread(client.say, "rotator/north/do/stop", "")
+        await until(lambda: one.status.latched == "mqtt")
+        assert other.status.latched == ""
+        await asyncio.to_thread(client.say, "rotator/all/stop", "at once!")
+        await until(lambda: other.status.latched == "mqtt")
+        assert client.latest("homeassistant/button/rotator_north/stop/config")
+    assert client.latest("rotator/north/availability") == "offline"
 
 
 @pytest.mark.parametrize("may", ["look", "stop", "move"])
-def test_a_message_that_is_too_long_and_kept_is_never_read_and_the_box_goes_on(
+async def test_a_message_that_is_too_long_and_kept_is_never_read_and_the_box_goes_on(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture, may: str
 ) -> None:
     """It comes with each new connection, before anything else: once told, the box goes on without that topic."""
     port = free_port()
     broker(port)
     kept = {"look": "point", "stop": "stop", "move": "point"}[may]
-
-    async def main() -> None:
-        client = listener(port)
-        await asyncio.to_thread(client.say, f"rotator/do/{kept}", LONG, retain=True)
-        async with box(tmp_path, port, f'may = "{may}"') as running:
-            await until(lambda: client.latest("rotator/availability") == "online")
-            if may != "look":
-                await until(lambda: "the broker keeps it" in caplog.text)
-                # The will of the connection that was ended, and then the next one, which stays.
-                await until(lambda: client.heard["rotator/availability"][-2:] == ["offline", "online"])
-            told = client.latest("rotator/status")
-            await until(lambda: client.latest("rotator/status") != told)
-            assert running.status.latched == ""
-            if may == "move":
-                await asyncio.to_thread(client.say, "rotator/do/stop", "")
-                await until(lambda: running.status.latched == "mqtt")
-
-    asyncio.run(main())
+    client = listener(port)
+    await asyncio.to_thread(client.say, f"rotator/do/{kept}", LONG, retain=True)
+    async with box(tmp_path, port, f'may = "{may}"') as running:
+        await until(lambda: client.latest("rotator/availability") == "online")
+        if may != "look":
+            await until(lambda: "the broker keeps it" in caplog.text)
+            # The will of the connection that was ended, and then the next one, which stays.
+            await until(lambda: client.heard["rotator/availability"][-2:] == ["offline", "online"])
+        before = client.latest("rotator/status")
+        await until(lambda: client.latest("rotator/status") != before)
+        assert running.status.latched == ""
+        if may == "move":
+            await asyncio.to_thread(client.say, "rotator/do/stop", "")
+            await until(lambda: running.status.latched == "mqtt")
     told = [each for each in caplog.messages if "too long" in each]
     where = (
         f"mqtt: 127.0.0.1:{port}: a message on 'rotator/do/{kept}' is too long to be read, and the broker keeps it: "
@@ -237,24 +211,20 @@ def has_ended(client: Listener, before: int) -> bool:
     return client.heard["rotator/availability"].count("offline") > before
 
 
-def test_a_stop_that_is_too_long_stops_and_is_told_once(
+async def test_a_stop_that_is_too_long_stops_and_is_told_once(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture
 ) -> None:
     port = free_port()
     broker(port)
-
-    async def main() -> None:
-        client = listener(port)
-        async with box(tmp_path, port) as running:
-            for _ in range(2):
-                await until(lambda: client.latest("rotator/availability") == "online")
-                ends = client.heard["rotator/availability"].count("offline")
-                await asyncio.to_thread(client.say, "rotator/do/stop", LONG)
-                await until(lambda: running.status.latched == "mqtt")
-                await until(partial(has_ended, client, ends))
+    client = listener(port)
+    async with box(tmp_path, port) as running:
+        for _ in range(2):
             await until(lambda: client.latest("rotator/availability") == "online")
-
-    asyncio.run(main())
+            ends = client.heard["rotator/availability"].count("offline")
+            await asyncio.to_thread(client.say, "rotator/do/stop", LONG)
+            await until(lambda: running.status.latched == "mqtt")
+            await until(partial(has_ended, client, ends))
+        await until(lambda: client.latest("rotator/availability") == "online")
     assert len([each for each in caplog.messages if "too long" in each]) == 1
 
 
@@ -331,7 +301,7 @@ OF_THE_BOX = 'ca_file = "{0}/ca.pem"\ncert_file = "{0}/box.pem"\n'
 )
 # The library leaves the socket of a handshake that failed to the collector.
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-def test_a_broker_of_one_s_own_authority_that_wants_a_certificate(
+async def test_a_broker_of_one_s_own_authority_that_wants_a_certificate(
     broker: NewBroker, certificates: Path, caplog: pytest.LogCaptureFixture, keys: str, said: str
 ) -> None:
     port = free_port()
@@ -339,10 +309,6 @@ def test_a_broker_of_one_s_own_authority_that_wants_a_certificate(
     settings = "".join(f"{key} {certificates / name}\n" for key, name in files.items())
     broker(port, f"allow_anonymous true\n{settings}require_certificate true")
     caplog.set_level("INFO")
-
-    async def main() -> None:
-        async with box(certificates, port, f"tls = true\n{keys.format(certificates)}"):
-            await until(lambda: said in caplog.text)
-
-    asyncio.run(main())
+    async with box(certificates, port, f"tls = true\n{keys.format(certificates)}"):
+        await until(lambda: said in caplog.text)
     assert "Traceback" not in caplog.text

@@ -93,6 +93,10 @@ def test_what_may_only_look_or_stop_does_no_more(may: str, obeys: set[str]) -> N
         ("point", b"[]", "the message must be a JSON object"),
         ("point", b"{" * 5000, "no message has more than"),
         ("point", b"[" * LONGEST, "the message must be a JSON object"),
+        ("point", b'{"azimuth_deg": true, "elevation_deg": 1}', "azimuth_deg must be a number from -360 to 720"),
+        ("point", b'{"azimuth_deg": 1, "elevation_deg": 1, "speed": 3}', "point has no value 'speed'"),
+        ("track", b'{"target": ""}', "target must be a text"),
+        ("jog", b'{"turn": "left", "seconds": 1}', "turn must be one of cw, ccw, up, down"),
         ("jog", b'{"turn": "cw", "seconds": 600}', "seconds must be a number from 0.05 to 5"),
     ],
 )

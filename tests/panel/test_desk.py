@@ -12,8 +12,8 @@ from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.clock import SimClock
 from firmware_sim.panel import PanelSpec, SimPanel
 from hw.buses.gpio import GpioInputs
-from hw.ports import Axis, Direction
-from rotator.exchange.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
+from hw.ports import Direction
+from rotator.exchange.orders import Aim, Home, Jog, Mode, Order, Release, SetMode, Stop
 from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
@@ -39,22 +39,6 @@ def test_a_needle_reaches_its_end_and_no_further() -> None:
     assert desk.sim.board.high_share(0) == pytest.approx(FULL_SCALE, abs=0.001)
 
 
-@pytest.mark.parametrize(
-    ("axis", "way", "nudge"),
-    [
-        ("azimuth", 1, (AZ, 5.0)),
-        ("azimuth", -1, (AZ, -5.0)),
-        ("elevation", 1, (EL, 5.0)),
-        ("elevation", -1, (EL, -5.0)),
-    ],
-)
-def test_jog_switches_nudge_in_auto(axis: str, way: int, nudge: tuple[Axis, float]) -> None:
-    desk = in_mode(AUTO)
-    desk.sim.throw(axis, way)
-    assert desk.waits(1.0) == [Nudge(*nudge)]
-    assert desk.sim.lit() == {"auto", "switch"}
-
-
 def test_knobs_send_the_antenna_in_manual() -> None:
     desk = in_mode(MANUAL)
     for tenth in range(1, 6):
@@ -63,13 +47,6 @@ def test_knobs_send_the_antenna_in_manual() -> None:
     assert desk.needles() == pytest.approx((0.5, 0.25), abs=0.004)
     assert desk.waits(1.2) == [Aim(cast(Any, pytest.approx(180.0, abs=0.5)), None, place=True)]
     assert desk.needles() == pytest.approx((0.25, 0.25), abs=0.004)
-
-
-def test_in_park_the_needles_follow_the_knobs() -> None:
-    desk = in_mode(PARK)
-    desk.sim.turn_knob("elevation", 0.75)
-    assert desk.waits(3.0) == []
-    assert desk.needles() == pytest.approx((0.0, 0.75), abs=0.004)
 
 
 def test_jog_drives_while_held_and_two_at_once_stop() -> None:
@@ -137,16 +114,6 @@ def test_calibration_at_power_up() -> None:
         assert desk.waits(3.0) == orders
 
 
-def test_lamps_of_pulses_and_data() -> None:
-    desk = in_mode(AUTO)
-    desk.pulses = {AZ}
-    desk.thread.data_received()
-    desk.waits(0.05)
-    assert desk.sim.lit() == {"auto", "azimuth_pulse", "data"}
-    desk.waits(0.3)
-    assert desk.sim.lit() == {"auto", "azimuth_pulse"}
-
-
 def test_what_has_not_changed_is_not_written_again() -> None:
     desk = in_mode(AUTO)
     writes: list[None] = []
@@ -161,12 +128,6 @@ def test_at_the_end_it_is_dark_also_where_the_chip_has_just_failed_to_answer() -
     desk.waits(1.1)
     desk.sim.clear("outputs-gone")
     assert desk.sim.lit() == {"auto"}
-    desk.thread.stop()
-    assert desk.sim.lit() == set()
-
-
-def test_at_the_end_it_is_dark() -> None:
-    desk = in_mode(AUTO)
     desk.thread.stop()
     assert desk.sim.lit() == set()
     assert desk.needles() == (0.0, 0.0)

@@ -43,14 +43,6 @@ def test_readings_that_do_not_come_any_more_stop_it() -> None:
     assert last == Stop((AZ,))
 
 
-def test_a_mode_switch_that_bounces_tells_nothing() -> None:
-    desk = in_mode(AUTO)
-    desk.sim.inject("mode-switch-bouncing")
-    assert desk.waits(10.0) == []
-    desk.sim.clear("mode-switch-bouncing")
-    assert desk.waits(2.0) == []
-
-
 def test_a_broken_wire_to_the_stop_button_is_a_pressed_button() -> None:
     desk = in_mode(AUTO)
     desk.sim.inject("stop-wire-broken")

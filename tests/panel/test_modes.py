@@ -52,13 +52,6 @@ def test_a_mode_must_be_still_for_a_second_and_is_lit_meanwhile() -> None:
     assert person.lit() == {"park"}
 
 
-def test_positions_on_the_way_set_no_mode() -> None:
-    person = at_the_panel(AUTO)
-    assert person.waits(0.8, mode_bits=PARK) == []
-    assert person.waits(0.8, mode_bits=MANUAL) == []
-    assert person.waits(3.0, mode_bits=AUTO) == []
-
-
 def test_a_mode_switch_that_bounces_tells_nothing() -> None:
     person = at_the_panel(AUTO)
     for _ in range(100):
@@ -204,10 +197,6 @@ def test_any_other_reading_stops_it_until_all_switches_are_released(jog: float |
     assert person.waits(1.0, jog=CW) == []
     assert person.waits(0.2, jog=CENTRE) == []
     assert person.waits(0.1, jog=CW) == [Jog(AZ, PLUS, 0.3)]
-
-
-def test_two_at_once_do_nothing() -> None:
-    assert at_the_panel(JOG).waits(2.0, jog=CW_AND_UP) == []
 
 
 def test_a_switch_held_since_before_the_mode_was_set_must_be_released_first() -> None:

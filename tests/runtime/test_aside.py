@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from rotator.runtime.aside import aside
+from rotator.runtime.autosave import aside
 
 
 def test_the_event_loop_goes_on_while_the_job_works() -> None:

@@ -118,15 +118,6 @@ def test_a_calibration_from_a_link_is_saved_on_the_rotors_own_scale(path: Path) 
     assert points[0][0] == pytest.approx(0.25, abs=0.002)
 
 
-def test_after_a_restart_it_says_the_same(path: Path) -> None:
-    box = Running(path, path)
-    calibrate_low(box, Axis.AZIMUTH)
-    again = Running(path, path)
-    assert again.loop.status.azimuth.calibration == tuple(
-        (pytest.approx(raw, abs=1e-5), angle_deg) for raw, angle_deg in box.loop.status.azimuth.calibration or ()
-    )
-
-
 def test_the_points_between_move_along(path: Path) -> None:
     box = Running(path, path)
     calibrate_low(box, Axis.ELEVATION)
@@ -135,26 +126,11 @@ def test_the_points_between_move_along(path: Path) -> None:
     assert [angle_deg for _, angle_deg in points] == [0.0, 90.0, 180.0]
 
 
-def test_what_was_taken_in_the_last_second_is_kept_too(path: Path) -> None:
-    box = Running(path, path)
-    box.run(2.0, Calibrate(Axis.AZIMUTH, high_end=False))
-    box.autosave.close()
-    assert load(path).azimuth.calibration is not None
-
-
 def test_without_a_file_it_is_said(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     before = path.read_text()
     calibrate_low(Running(path, None), Axis.AZIMUTH)
     assert "run with --config to keep it" in caplog.text
     assert path.read_text() == before
-
-
-def test_a_file_that_is_gone_is_said(path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    caplog.set_level(logging.INFO)
-    box = Running(path, path)
-    path.unlink()
-    calibrate_low(box, Axis.AZIMUTH)
-    assert "azimuth: calibration cannot be saved" in caplog.text
 
 
 CALIBRATIONS = (Calibrate(Axis.AZIMUTH, high_end=False), Calibrate(Axis.ELEVATION, high_end=False))

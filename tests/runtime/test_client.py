@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import re
 from collections.abc import Iterator
 
@@ -19,7 +18,7 @@ from rotator.protocols.aiming import outside
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.runtime.client import MOST_PER_S, Client, Rights
+from rotator.runtime.client import Client, Rights
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
 
@@ -100,13 +99,6 @@ def test_each_protocol_refuses_in_its_own_words(bench: Bench) -> None:
     assert rotctld.receive(b"+S\n") == [b"stop:\nRPRT -9\n"]
     # What cannot be reached is the order's own fault, and has a number of its own.
     assert RotctldSession(bench.client()).receive(b"P 330 20\n") == [b"RPRT -1\n"]
-
-
-def test_the_log_says_so_once_whoever_comes_again(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
-    for connection in range(1, 101):
-        bench.client(connection, read_only=True).order(Aim(10, 10))
-    (record,) = caplog.records
-    assert record.message == "link#1: refused: this link is read_only: it may ask, but not move or stop the antenna"
 
 
 def test_a_program_that_repeats_a_refused_order_does_not_fill_the_log(
@@ -197,17 +189,6 @@ def test_the_orders_of_one_connection_do_not_count_against_another(bench: Bench)
         flood.order(Aim(100, 25))
     other.order(Aim(300, 25))
     assert bench.loop.posted[-2:] == [(1, Aim(100, 25), True), (2, Aim(300, 25), False)]
-
-
-def test_a_real_program_never_reaches_it(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
-    """Twenty orders a second, four times what the fastest one is known to send."""
-    client = bench.client(most_per_s=MOST_PER_S)
-    for _ in range(600):
-        client.order(Aim(300, 25))
-        bench.clock.sleep(0.05)
-        bench.loop.cycle()
-    assert not any(can_wait for _, _, can_wait in bench.loop.posted)
-    assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
 
 
 def test_too_many_orders_are_logged_once(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:

@@ -152,21 +152,3 @@ def test_a_display_that_was_never_there_holds_up_nothing(bench: Bench) -> None:
     assert bench.display.wait(failures=1)
     bench.thread.stop()  # it waits to try again, and is woken from that
     assert DISPLAY_THREAD not in {thread.name for thread in threading.enumerate()}
-
-
-def test_stopped_it_ends(bench: Bench) -> None:
-    bench.thread.start()
-    assert bench.display.wait(shows=1)
-    bench.thread.stop()
-    assert DISPLAY_THREAD not in {thread.name for thread in threading.enumerate()}
-
-
-def test_stopping_what_never_started_is_nothing(bench: Bench) -> None:
-    bench.thread.stop()
-
-
-def test_it_can_be_stopped_twice(bench: Bench) -> None:
-    bench.thread.start()
-    bench.thread.stop()
-    bench.thread.stop()
-    assert DISPLAY_THREAD not in {thread.name for thread in threading.enumerate()}

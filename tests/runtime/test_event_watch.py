@@ -214,27 +214,23 @@ def test_a_pause_shorter_than_the_limit_ends_nothing() -> None:
         rig.run(2 * TICK_S)
 
 
-def test_the_real_threads(tmp_path: Path) -> None:
+async def test_the_real_threads(tmp_path: Path) -> None:
     """The whole box: an event loop that is stuck in a callback. The motors stop before the callback ends."""
     config = parse(f'[state]\npath = "{tmp_path / "state.json"}"\n', "test")
     stood = threading.Event()
-
-    async def main() -> None:
-        app, stop = App(config), asyncio.Event()
-        box = asyncio.create_task(app.run(stop))
-        world = app.station.world
-        assert world is not None
-        while not app.loop.status.azimuth.moving:
-            app.loop.post(LINK, Aim(300.0, 20.0))
-            await asyncio.sleep(0.05)
-        pause = threading.Event()
-        for _ in range(int(PATIENCE_S / 0.1)):
-            pause.wait(0.1)  # the event loop is stuck here
-            if world.drives() == (0, 0):
-                stood.set()
-                break
-        stop.set()
-        await box
-
-    asyncio.run(main())
+    app, stop = App(config), asyncio.Event()
+    box = asyncio.create_task(app.run(stop))
+    world = app.station.world
+    assert world is not None
+    while not app.loop.status.azimuth.moving:
+        app.loop.post(LINK, Aim(300.0, 20.0))
+        await asyncio.sleep(0.05)
+    pause = threading.Event()
+    for _ in range(int(PATIENCE_S / 0.1)):
+        pause.wait(0.1)  # the event loop is stuck here
+        if world.drives() == (0, 0):
+            stood.set()
+            break
+    stop.set()
+    await box
     assert stood.is_set()

@@ -144,14 +144,6 @@ def test_an_order_that_can_wait_makes_room_for_the_next_of_its_kind(rig: Rig) ->
     assert rig.world.drives() == (1, 1), "the newest of the one, and the other's jog before it"
 
 
-def test_it_waits_for_the_cycle_and_no_longer(rig: Rig) -> None:
-    relays = Relays(rig.world)
-    loop = ControlLoop(build_controller(rig.config), rig.station.rotor, time.monotonic, PERIOD_S)
-    with running(loop):
-        loop.post(LINK, Jog(AZ, Direction.PLUS), can_wait=True)
-        assert relays.come_to(1, 0)
-
-
 def test_a_program_that_connects_for_each_order_has_one_line_in_the_log_and_one_when_it_is_silenced(
     rig: Rig, caplog: pytest.LogCaptureFixture
 ) -> None:

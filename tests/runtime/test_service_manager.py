@@ -84,13 +84,6 @@ def test_four_signs_of_life_in_the_time_allowed(manager: Manager, clock: SimCloc
     assert manager.heard() == ["WATCHDOG=1"] * 4
 
 
-def test_no_step_no_sign_of_life(manager: Manager, clock: SimClock) -> None:
-    notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
-    clock.sleep(60.0)
-    notifier.close()
-    assert manager.heard() == []
-
-
 @pytest.mark.parametrize("asked", [{}, {"WATCHDOG_USEC": "soon"}, {"WATCHDOG_USEC": "5000000", "WATCHDOG_PID": "1"}])
 def test_without_a_watchdog_of_ours_it_is_silent(manager: Manager, clock: SimClock, asked: dict[str, str]) -> None:
     notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path), **asked}, clock)

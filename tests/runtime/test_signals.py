@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
 
 import pytest
 
@@ -24,14 +23,6 @@ with SignalThread(lambda: os._exit(7)):
     libc.pthread_mutex_lock(mutex)
 """
 """A lock that the main thread takes twice: it waits for itself for ever, and no signal wakes it."""
-
-
-@pytest.fixture(autouse=True)
-def closed_terminal_counts() -> Iterator[None]:
-    """Also where the tests themselves were started with nohup, which their programs would inherit."""
-    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
-    yield
-    signal.signal(signal.SIGHUP, before)
 
 
 @pytest.mark.parametrize("signum", ENDINGS)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.views.bars import FORBIDDEN, OVERLAP, PARTS, Bar, forbidden, overlap
+from rotator.views.axis_rows import FORBIDDEN, OVERLAP, PARTS, Bar, forbidden, overlap
 
 
 @pytest.mark.parametrize(

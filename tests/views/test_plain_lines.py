@@ -55,10 +55,6 @@ def test_the_line_stays_while_only_noise_changes() -> None:
     assert len({plain_lines.line(moment) for moment in moments}) == 1
 
 
-def test_a_pot_that_reads_just_below_zero_is_at_zero() -> None:
-    assert "azimuth 0°" in plain_lines.line(replace(STATUS, azimuth=replace(STATUS.azimuth, angle_deg=-0.04)))
-
-
 def test_trouble_in_a_line() -> None:
     now = replace(STATUS, latched="keyboard", elevation=AxisStatus(0, 180, fault=FAULT, missing=(Missing.LIMITS,)))
     line = plain_lines.line(now)

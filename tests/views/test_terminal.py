@@ -92,12 +92,6 @@ def test_a_list_says_at_which_point_it_is() -> None:
     assert "orders from gs232b, point 3 of 12" in show(replace(STATUS, timed_point=3, timed_points=12))
 
 
-def test_on_target() -> None:
-    azimuth = replace(AZIMUTH, angle_deg=234.6, drive=Direction.OFF, moving=False)
-    there = replace(STATUS, azimuth=azimuth, elevation=replace(ELEVATION, angle_deg=24.8, target_deg=25.0))
-    assert "ON TARGET SAT" in words(show(there))
-
-
 def test_an_axis_that_has_lost_its_order_is_not_on_target() -> None:
     """As after a fault that a person has acknowledged: only the other axis goes on."""
     lost = replace(AZIMUTH, target_deg=None, drive=Direction.OFF, moving=False)
@@ -116,11 +110,6 @@ def test_without_a_reading_the_angle_is_the_last_one_seen() -> None:
     picture = show(BOTH_OUT)
     assert picture.count("last seen") == 2
     assert "0.0000" not in picture
-
-
-def test_the_angle_s_source() -> None:
-    counted = replace(STATUS, azimuth=replace(AZIMUTH, source=AngleSource.COUNTED))
-    assert "counted" in row(show(counted), "target")
 
 
 # --- what else it shows
@@ -173,11 +162,6 @@ def test_bytes_that_are_no_text_are_escaped(wires: list[Wire]) -> None:
     assert "\x1b" not in picture
 
 
-def test_simulated_is_said_in_the_title() -> None:
-    assert "SIMULATED" in show().splitlines()[0]
-    assert "SIMULATED" not in show(replace(STATUS, simulated=False))
-
-
 def test_a_fault_says_everything_and_what_to_do() -> None:
     picture = words(show(STATES["one fault"]))
     assert str(STILL) in picture
@@ -208,8 +192,10 @@ def test_what_stands_as_a_note_has_no_second_line_in_the_log() -> None:
     assert "rotctld#2 moves the antenna" in picture
 
 
-def test_log_and_keys() -> None:
+def test_log_keys_and_whether_it_is_simulated() -> None:
     picture = show(log=["12:00:00 W gs232b: refused"])
+    assert "SIMULATED" in picture.splitlines()[0]
+    assert "SIMULATED" not in show(replace(STATUS, simulated=False))
     assert "12:00:00 W gs232b: refused" in picture
     for key in ("space STOP", "q quit", "park + Enter: storm park", "resume + Enter: go on"):
         assert key in picture

@@ -8,7 +8,7 @@ from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import aiohttp
 import pytest
@@ -25,6 +25,8 @@ from rotator.web.pairing import Pairings
 from rotator.web.thread import PageThread
 from tests.boxes import file_with_page, free_port
 
+Start = Callable[..., AbstractAsyncContextManager["Box"]]
+Test = TypeVar("Test", bound=Callable[..., Any])
 PATIENCE_S = 60.0
 OFF = (0, 0)
 
@@ -76,8 +78,30 @@ class Box:
         return self.app.loop.status
 
 
+def with_box(more: str = "", *, page: str = "", file: bool = False) -> Callable[[Test], Test]:
+    """The fixture `box` of this test has these texts in its file. `file`: it has a file, and may change it."""
+
+    def mark(test: Test) -> Test:
+        test.__dict__["box"] = more, page, file
+        return test
+
+    return mark
+
+
 @pytest.fixture
-def page_box(tmp_path: Path) -> Callable[..., AbstractAsyncContextManager[Box]]:
+def file(tmp_path: Path) -> Path:
+    return tmp_path / "r.toml"
+
+
+@pytest.fixture
+def box(request: pytest.FixtureRequest, page_box: Start, file: Path) -> AbstractAsyncContextManager[Box]:
+    """A running box: see `with_box`."""
+    more, page, has_file = getattr(request.function, "box", ("", "", False))
+    return page_box(more, page, file if has_file else None)
+
+
+@pytest.fixture
+def page_box(tmp_path: Path) -> Start:
     """Starts a box. `more`: text for the end of its file. `file`: it has that text in this file, too."""
 
     @asynccontextmanager

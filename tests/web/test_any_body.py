@@ -5,28 +5,19 @@ from __future__ import annotations
 import asyncio
 import http.client
 import json
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 from urllib.parse import urlsplit
 
-import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests.search import examples
-from tests.web.conftest import OFF, Box
+from tests.web.conftest import OFF, Box, Start
 from tests.web.described import Described
 from tests.web.test_described import description
 from tests.web.test_sky import FOLLOWS
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 ALL = settings(max_examples=examples(600))
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> Path:
-    return tmp_path / "r.toml"
 
 
 def ask(box: Box, path: str, body: bytes, token: str = "") -> tuple[int, str, bytes]:
@@ -50,7 +41,7 @@ def requests(told: Described, *left_out: str) -> st.SearchStrategy[tuple[str, by
     )
 
 
-def test_no_body_moves_or_changes_anything_for_one_who_is_not_paired(page_box: Start, file: Path) -> None:
+async def test_no_body_moves_or_changes_anything_for_one_who_is_not_paired(page_box: Start, file: Path) -> None:
     def search(box: Box, told: Described) -> None:
         routes = dict(told.routes("post"))
 
@@ -67,19 +58,16 @@ def test_no_body_moves_or_changes_anything_for_one_who_is_not_paired(page_box: S
 
         judged()
 
-    async def main() -> None:
-        async with page_box(FOLLOWS, file=file) as box:
-            told, before = await description(box), file.read_text()
-            await asyncio.to_thread(search, box, told)
-            assert box.status.wanted_azimuth_deg is None
-            assert (box.status.controlled_by, box.status.held_by, box.status.latched) == ("", "", "")
-            assert file.read_text() == before
-            assert not box.anew.asked
-
-    asyncio.run(main())
+    async with page_box(FOLLOWS, file=file) as box:
+        told, before = await description(box), file.read_text()
+        await asyncio.to_thread(search, box, told)
+        assert box.status.wanted_azimuth_deg is None
+        assert (box.status.controlled_by, box.status.held_by, box.status.latched) == ("", "", "")
+        assert file.read_text() == before
+        assert not box.anew.asked
 
 
-def test_any_body_of_one_who_is_paired_has_an_answer_that_is_described(page_box: Start, file: Path) -> None:
+async def test_any_body_of_one_who_is_paired_has_an_answer_that_is_described(page_box: Start, file: Path) -> None:
     def search(box: Box, told: Described, token: str, mine: int) -> None:
         routes = dict(told.routes("post"))
         headers = {"Authorization": f"Bearer {token}"}
@@ -99,13 +87,10 @@ def test_any_body_of_one_who_is_paired_has_an_answer_that_is_described(page_box:
 
         judged()
 
-    async def main() -> None:
-        async with page_box(FOLLOWS, file=file) as box:
-            me = await box.pair()
-            (token,) = [each.value for each in box.http.cookie_jar if each.key == "rotator"]
-            await asyncio.to_thread(search, box, await description(box), token, me["number"])
-            assert (await box.get("me"))[1]["paired"]
-            assert (await box.post("stop"))[0] == 200
-            await box.until(lambda: box.world.drives() == OFF)
-
-    asyncio.run(main())
+    async with page_box(FOLLOWS, file=file) as box:
+        me = await box.pair()
+        (token,) = [each.value for each in box.http.cookie_jar if each.key == "rotator"]
+        await asyncio.to_thread(search, box, await description(box), token, me["number"])
+        assert (await box.get("me"))[1]["paired"]
+        assert (await box.post("stop"))[0] == 200
+        await box.until(lambda: box.world.drives() == OFF)

@@ -6,8 +6,6 @@ import asyncio
 import json
 import re
 import time
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 from typing import Any
 
@@ -19,18 +17,12 @@ from rotator.config.load import parse
 from rotator.store.flown import FlownPass, FlownPasses, picture_name
 from rotator.web import assets
 from tests.boxes import file_with_page
-from tests.web.conftest import PATIENCE_S, Box
+from tests.web.conftest import PATIENCE_S, Box, Start, with_box
 from tests.web.described import Described, of_another_kind
 from tests.web.test_sky import FOLLOWS, TLE, send
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 NO_TOKEN, MAY_READ, TOKEN = 0, 3, 2
 """By the number of ways to show who asks."""
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> Path:
-    return tmp_path / "r.toml"
 
 
 async def description(box: Box) -> Described:
@@ -51,139 +43,110 @@ async def asked(box: Box, way: str, path: str, **more: Any) -> tuple[int, str, b
 
 
 @pytest.mark.parametrize("more", ["", FOLLOWS], ids=["bare", "with a sky"])
-def test_every_answer_is_as_described(page_box: Start, file: Path, tmp_path: Path, more: str) -> None:
+async def test_every_answer_is_as_described(page_box: Start, file: Path, tmp_path: Path, more: str) -> None:
     flown = FlownPass(picture_name("ISS", 1.7e9), "ISS", 1.7e9, 1.7e9 + 600, 0.4, 1.2, None)
     FlownPasses(tmp_path).keep(flown, "<svg/>")
-
-    async def main() -> None:
-        async with page_box(more, file=file) as box:
-            await box.pair()
-            if more:
-                await send(box, "mine.tle", TLE)
-                assert (await box.post("track", {"target": "Moon"}))[0] == 200
-            told = await description(box)
-            for path, one in told.routes("get"):
-                query = {"file": flown.file} if path == "/api/flown/picture" else {}
-                found = await asked(box, "GET", path, params=query)
-                is_socket = "101" in one["responses"]
-                computed = "202" in one["responses"] and not more
-                assert found[0] == 400 if is_socket else found[0] == 200 or (computed and found[0] == 409), (
-                    path,
-                    found,
-                )
-                told.judge(one, *found)
-            assert (await box.post("track", {"target": "off"}))[0] == 200
-            assert (await box.post("stop"))[0] == 200
-            told.judge(dict(told.routes("get"))["/api/status"], *await asked(box, "GET", "/api/status"))
-
-    asyncio.run(main())
+    async with page_box(more, file=file) as box:
+        await box.pair()
+        if more:
+            await send(box, "mine.tle", TLE)
+            assert (await box.post("track", {"target": "Moon"}))[0] == 200
+        told = await description(box)
+        for path, one in told.routes("get"):
+            query = {"file": flown.file} if path == "/api/flown/picture" else {}
+            found = await asked(box, "GET", path, params=query)
+            is_socket = "101" in one["responses"]
+            computed = "202" in one["responses"] and not more
+            assert found[0] == 400 if is_socket else found[0] == 200 or (computed and found[0] == 409), (
+                path,
+                found,
+            )
+            told.judge(one, *found)
+        assert (await box.post("track", {"target": "off"}))[0] == 200
+        assert (await box.post("stop"))[0] == 200
+        told.judge(dict(told.routes("get"))["/api/status"], *await asked(box, "GET", "/api/status"))
 
 
-def test_what_a_calibration_says_is_as_described(page_box: Start, tmp_path: Path, file: Path) -> None:
+async def test_what_a_calibration_says_is_as_described(page_box: Start, tmp_path: Path, file: Path) -> None:
     config = parse(file_with_page(tmp_path, 1), "a test's file")
     calibration = PageCalibration(config, Axis.AZIMUTH, file, time.monotonic)
-
-    async def main() -> None:
-        async with page_box() as box:
-            told = await description(box)
-            told.answers("/api/calibration", calibration.shown())
-
-    asyncio.run(main())
+    async with page_box() as box:
+        told = await description(box)
+        told.answers("/api/calibration", calibration.shown())
 
 
-def test_what_a_socket_sends_is_described_in_words_and_the_picture_by_its_schema(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            told = await description(box)
-            for path, one in told.routes("get"):
-                if "101" not in one["responses"]:
-                    continue
-                async with box.http.ws_connect(f"{box.url}{path}") as socket:
-                    messages = [await socket.receive_json()]
-                    if path == "/api/live":
-                        messages.append(await socket.receive_json())
-                        await socket.send_str('{"hold": "cw", "press": 1, "n": 0}')
-                        while "refused" not in messages[-1]:
-                            messages.append(await socket.receive_json())
-                examples = re.findall(r"^ {4}(\{.*\})$", one["description"], re.MULTILINE)
-                forms = {tuple(sorted(json.loads(text.replace("{…}", "{}")))) for text in examples}
-                assert {tuple(sorted(message)) for message in messages} <= forms
-                for message in messages:
-                    if "now" in message:
-                        told.valid({"$ref": "#/components/schemas/picture"}, message["now"])
-                    if "hello" in message:
-                        told.answers("/api/box", message["hello"].pop("box"))
-                        told.answers("/api/me", message["hello"])
-
-    asyncio.run(main())
+async def test_what_a_socket_sends_is_described_in_words_and_the_picture_by_its_schema(box: Box) -> None:
+    await box.pair()
+    told = await description(box)
+    for path, one in told.routes("get"):
+        if "101" not in one["responses"]:
+            continue
+        async with box.http.ws_connect(f"{box.url}{path}") as socket:
+            messages = [await socket.receive_json()]
+            if path == "/api/live":
+                messages.append(await socket.receive_json())
+                await socket.send_str('{"hold": "cw", "press": 1, "n": 0}')
+                while "refused" not in messages[-1]:
+                    messages.append(await socket.receive_json())
+        examples = re.findall(r"^ {4}(\{.*\})$", one["description"], re.MULTILINE)
+        forms = {tuple(sorted(json.loads(text.replace("{…}", "{}")))) for text in examples}
+        assert {tuple(sorted(message)) for message in messages} <= forms
+        for message in messages:
+            if "now" in message:
+                told.valid({"$ref": "#/components/schemas/picture"}, message["now"])
+            if "hello" in message:
+                told.answers("/api/box", message["hello"].pop("box"))
+                told.answers("/api/me", message["hello"])
 
 
 @pytest.mark.parametrize("reading", ["open", "paired"])
-def test_who_may_ask_is_as_described(page_box: Start, reading: str) -> None:
-    async def main() -> None:
-        async with page_box(page=f'reading = "{reading}"') as box:
-            told = await description(box)
-            for way in ("get", "post"):
-                for path, one in told.routes(way):
-                    status, kind, body = await asked(box, way, path)
-                    refused = len(one["security"]) == TOKEN or (
-                        len(one["security"]) == MAY_READ and reading == "paired"
-                    )
-                    assert (status == 401) == refused, path
-                    if status != 200:
-                        told.judge(one, status, kind, body)
-
-    asyncio.run(main())
+async def test_who_may_ask_is_as_described(page_box: Start, reading: str) -> None:
+    async with page_box(page=f'reading = "{reading}"') as box:
+        told = await description(box)
+        for way in ("get", "post"):
+            for path, one in told.routes(way):
+                status, kind, body = await asked(box, way, path)
+                refused = len(one["security"]) == TOKEN or (len(one["security"]) == MAY_READ and reading == "paired")
+                assert (status == 401) == refused, path
+                if status != 200:
+                    told.judge(one, status, kind, body)
 
 
-def test_every_example_has_a_form_that_the_box_takes(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(FOLLOWS, file=file) as box:
-            await box.pair()
-            told = await description(box)
-            for path, one in told.routes("post"):
-                for form in told.bodies(one):
-                    told.valid(form, form["examples"][0])
-                    found = await asked(box, "POST", path, json=form["examples"][0])
-                    assert found[0] != 400, (path, found)
-                    told.judge(one, *found)
-
-    asyncio.run(main())
+@with_box(FOLLOWS, file=True)
+async def test_every_example_has_a_form_that_the_box_takes(box: Box) -> None:
+    await box.pair()
+    told = await description(box)
+    for path, one in told.routes("post"):
+        for form in told.bodies(one):
+            told.valid(form, form["examples"][0])
+            found = await asked(box, "POST", path, json=form["examples"][0])
+            assert found[0] != 400, (path, found)
+            told.judge(one, *found)
 
 
-def test_one_value_of_another_kind_is_refused_with_a_sentence(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(FOLLOWS, file=file) as box:
-            await box.pair()
-            told = await description(box)
-            before = file.read_text()
-            for path, one in told.routes("post"):
-                for form in told.bodies(one):
-                    example = form["examples"][0]
-                    changed = [
-                        {**example, name: of_another_kind(example.get(name, True))} for name in form["properties"]
-                    ]
-                    for wrong in (*changed, {**example, "surplus": 1}, [example]):
-                        status, kind, body = await asked(box, "POST", path, json=wrong)
-                        assert status == 400, (path, wrong, body)
-                        told.judge(one, status, kind, body)
-                        assert " " in json.loads(body)["error"]
-            assert file.read_text() == before
-            assert not box.anew.asked
-            assert not box.status.moving
-
-    asyncio.run(main())
+@with_box(FOLLOWS, file=True)
+async def test_one_value_of_another_kind_is_refused_with_a_sentence(box: Box, file: Path) -> None:
+    await box.pair()
+    told = await description(box)
+    before = file.read_text()
+    for path, one in told.routes("post"):
+        for form in told.bodies(one):
+            example = form["examples"][0]
+            changed = [{**example, name: of_another_kind(example.get(name, True))} for name in form["properties"]]
+            for wrong in (*changed, {**example, "surplus": 1}, [example]):
+                status, kind, body = await asked(box, "POST", path, json=wrong)
+                assert status == 400, (path, wrong, body)
+                told.judge(one, status, kind, body)
+                assert " " in json.loads(body)["error"]
+    assert file.read_text() == before
+    assert not box.anew.asked
+    assert not box.status.moving
 
 
-def test_all_that_the_page_asks_for_is_described(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            told = await description(box)
-            scripts = [file.plain.decode() for path, file in assets.load().items() if re.fullmatch(r"/\w+\.js", path)]
-            for way, calls in {"get": "read|load", "post": "post|change|upload|send"}.items():
-                named = {name for text in scripts for name in re.findall(rf'\b(?:{calls})\("([a-z/-]+)', text)}
-                assert len(named) > 5
-                assert {f"/api/{name}" for name in named} <= dict(told.routes(way)).keys()
-
-    asyncio.run(main())
+async def test_all_that_the_page_asks_for_is_described(box: Box) -> None:
+    told = await description(box)
+    scripts = [file.plain.decode() for path, file in assets.load().items() if re.fullmatch(r"/\w+\.js", path)]
+    for way, calls in {"get": "read|load", "post": "post|change|upload|send"}.items():
+        named = {name for text in scripts for name in re.findall(rf'\b(?:{calls})\("([a-z/-]+)', text)}
+        assert len(named) > 5
+        assert {f"/api/{name}" for name in named} <= dict(told.routes(way)).keys()

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import asyncio
 import io
 import json
 import tomllib
 import zipfile
 from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from urllib.parse import quote
 
 import hypothesis.strategies as st
+import pytest
 from hypothesis import given
 
 from rotator.config.load import parse
@@ -22,10 +21,9 @@ from rotator.exchange.sources import Source
 from rotator.exchange.status import AxisStatus, Status
 from rotator.monitor.transcript import Way, encode_piece
 from rotator.web.diagnostics import Known, diagnostics
-from rotator.web.redaction import Redaction, secrets_of, spellings_of_place
+from rotator.web.redaction import REMOVED, Redaction, secrets_of, spellings_of_place
 from tests.web.conftest import Box
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 STATUS = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
 SECRET = (
     st.text("abcdefghijkmnpqrstuvwxyzABCDEFGHJKLMN23456789-_.~!$*+=", max_size=40)
@@ -144,25 +142,41 @@ def test_the_place_is_coarse_and_browsers_have_no_names() -> None:
     assert texts["rotator/log.txt"].endswith("page: page#1 is paired\n")
 
 
-def test_a_paired_browser_downloads_it_whole(page_box: Start, tmp_path: Path) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            assert (await box.get("diagnostics"))[0] == 401
-            await box.pair("Anna's phone")
-            async with box.http.get(f"{box.url}/api/diagnostics") as answer:
-                assert answer.status == 200
-                assert answer.headers["Content-Disposition"] == 'attachment; filename="rotator-diagnostics.zip"'
-                texts = members(await answer.read())
-            assert {"README.txt", "about.json", "configuration.toml", "status.json", "doctor.json", "log.txt"} <= {
-                name.removeprefix("rotator/") for name in texts
-            }
-            assert json.loads(texts["rotator/about.json"])["kernel"].startswith("Linux")
-            assert json.loads(texts["rotator/status.json"])["simulated"] is True
-            assert any(check["name"] == "python" for check in json.loads(texts["rotator/doctor.json"])["checks"])
-            digest = json.loads((tmp_path / "paired.json").read_text())["paired"][0]["digest"]
-            cookies = [each.value for each in box.http.cookie_jar]
-            assert cookies
-            for secret in (digest, *cookies, "Anna"):
-                assert secret not in str(texts)
+async def test_a_paired_browser_downloads_it_whole(box: Box, tmp_path: Path) -> None:
+    assert (await box.get("diagnostics"))[0] == 401
+    await box.pair("Anna's phone")
+    async with box.http.get(f"{box.url}/api/diagnostics") as answer:
+        assert answer.status == 200
+        assert answer.headers["Content-Disposition"] == 'attachment; filename="rotator-diagnostics.zip"'
+        texts = members(await answer.read())
+    assert {"README.txt", "about.json", "configuration.toml", "status.json", "doctor.json", "log.txt"} <= {
+        name.removeprefix("rotator/") for name in texts
+    }
+    assert json.loads(texts["rotator/about.json"])["kernel"].startswith("Linux")
+    assert json.loads(texts["rotator/status.json"])["simulated"] is True
+    assert any(check["name"] == "python" for check in json.loads(texts["rotator/doctor.json"])["checks"])
+    digest = json.loads((tmp_path / "paired.json").read_text())["paired"][0]["digest"]
+    cookies = [each.value for each in box.http.cookie_jar]
+    assert cookies
+    for secret in (digest, *cookies, "Anna"):
+        assert secret not in str(texts)
 
-    asyncio.run(main())
+
+@pytest.mark.parametrize(
+    ("text", "left"),
+    [
+        ("https://sky.example/gp.php?GROUP=amateur: 95 satellites", "https://sky.example/…: 95 satellites"),
+        ("rfc2217://anna:s3cret@192.168.1.9:4000/x?log", "rfc2217://192.168.1.9:4000/…"),
+        ("http://192.168.1.9:8232", "http://192.168.1.9:8232"),
+        ("Authorization: Bearer abc.def-ghi", f"Authorization: {REMOVED}"),
+        ("Cookie: rotator=abcdefgh; other=1", f"Cookie: {REMOVED}"),
+        ("password = 'correct horse'", f"password = {REMOVED}"),
+        ('{"api_key": "abc", "n": 1}', f'{{"api_key": {REMOVED}, "n": 1}}'),
+        ("f" * 64, REMOVED),
+        ("see " + "aB-_" * 10 + "xyz" + " there", f"see {REMOVED} there"),
+        ("gs232b#1 > W235 025\\r", "gs232b#1 > W235 025\\r"),
+        ("axis azimuth: 12 % of 450°, at 8f3a9c2", "axis azimuth: 12 % of 450°, at 8f3a9c2"),
+    ],
+)  # fmt: skip
+def test_what_looks_like_a_secret_goes_and_the_rest_stays(text: str, left: str) -> None:
+    assert Redaction().text(text) == left

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 from typing import Any
 
 from rotator.web.help_api import doctor
 from rotator.web.redaction import Redaction
 from tests.web.conftest import PATIENCE_S, Box
-
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 
 
 async def examined(box: Box) -> dict[str, Any]:
@@ -24,24 +20,12 @@ async def examined(box: Box) -> dict[str, Any]:
     return answer[1]
 
 
-def test_everyone_who_may_look_reads_the_checks(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            told = await examined(box)
-            checks = {check["name"]: check for check in told["checks"]}
-            assert checks["configuration"]["ok"] is True
-            assert {"python", "running box", "state folder"} <= checks.keys()
-            assert told["at_s"] > 0
-
-    asyncio.run(main())
-
-
-def test_reading_that_is_closed_closes_the_doctor(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box(page='reading = "paired"') as box:
-            assert (await box.get("doctor"))[0] == 401
-
-    asyncio.run(main())
+async def test_everyone_who_may_look_reads_the_checks(box: Box) -> None:
+    told = await examined(box)
+    checks = {check["name"]: check for check in told["checks"]}
+    assert checks["configuration"]["ok"] is True
+    assert {"python", "running box", "state folder"} <= checks.keys()
+    assert told["at_s"] > 0
 
 
 def test_a_file_with_a_mistake_is_a_report_too(tmp_path: Path) -> None:

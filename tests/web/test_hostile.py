@@ -7,8 +7,6 @@ import contextlib
 import re
 import socket
 import sys
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, cast
@@ -19,9 +17,8 @@ import pytest
 from rotator.web.connections import ANSWER_S, MOST, SILENT_S, Connections, machine
 from rotator.web.live import EVERY_S, TAKES_S
 from tests.search import examples
-from tests.web.conftest import OFF, PATIENCE_S, Box
+from tests.web.conftest import OFF, PATIENCE_S, Box, Start
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 POINT, AWAY = {"azimuth_deg": 200, "elevation_deg": 60}, {"azimuth_deg": 90, "elevation_deg": 30}
 FILLED = 40
 """So many pictures at most fill the queues of a reader that takes none."""
@@ -43,118 +40,79 @@ UPGRADE = (
     ],
     ids=str,
 )
-def test_a_foreign_page_moves_nothing_even_in_a_paired_browser(page_box: Start, headers: dict[str, str]) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            for path in ("point", "take", "stop", "pair/begin"):
-                status, _ = await box.post(path, POINT if path == "point" else {}, headers=headers)
-                assert status in (400, 403)
-            with pytest.raises(aiohttp.WSServerHandshakeError):
-                await box.http.ws_connect(f"{box.url}/api/live", headers=headers)
-            assert box.status.wanted_azimuth_deg is None
-            assert box.status.held_by == box.status.latched == ""
-            assert box.app.lcd_rows(0.0)[0].startswith("SAT")
-
-    asyncio.run(main())
+async def test_a_foreign_page_moves_nothing_even_in_a_paired_browser(box: Box, headers: dict[str, str]) -> None:
+    await box.pair()
+    for path in ("point", "take", "stop", "pair/begin"):
+        status, _ = await box.post(path, POINT if path == "point" else {}, headers=headers)
+        assert status in (400, 403)
+    with pytest.raises(aiohttp.WSServerHandshakeError):
+        await box.http.ws_connect(f"{box.url}/api/live", headers=headers)
+    assert box.status.wanted_azimuth_deg is None
+    assert box.status.held_by == box.status.latched == ""
+    assert box.app.lcd_rows(0.0)[0].startswith("SAT")
 
 
 @pytest.mark.parametrize("path", ["/api/status", "/api/live", "/api/stop"])
-def test_a_request_with_several_host_headers_is_refused(page_box: Start, path: str) -> None:
+async def test_a_request_with_several_host_headers_is_refused(box: Box, path: str) -> None:
     """The one who stands between would read one of them, and the page another."""
-
-    async def main() -> None:
-        async with page_box() as box:
-            good = box.url.removeprefix("http://")
-            for hosts in ((good, "evil.example"), ("evil.example", good), (good, good)):
-                reader, writer = await asyncio.open_connection(*_place(box))
-                named = "".join(f"Host: {host}\r\n" for host in hosts)
-                writer.write(f"POST {path} HTTP/1.1\r\n{named}Content-Length: 0\r\n\r\n".encode())
-                assert (await reader.readline()).split()[1] == b"400"
-                writer.close()
-            assert box.status.latched == ""
-
-    asyncio.run(main())
+    good = box.url.removeprefix("http://")
+    for hosts in ((good, "evil.example"), ("evil.example", good), (good, good)):
+        reader, writer = await asyncio.open_connection(*_place(box))
+        named = "".join(f"Host: {host}\r\n" for host in hosts)
+        writer.write(f"POST {path} HTTP/1.1\r\n{named}Content-Length: 0\r\n\r\n".encode())
+        assert (await reader.readline()).split()[1] == b"400"
+        writer.close()
+    assert box.status.latched == ""
 
 
-def test_no_request_hides_behind_the_upgrade_to_a_websocket(page_box: Start) -> None:
+async def test_no_request_hides_behind_the_upgrade_to_a_websocket(box: Box) -> None:
     """What follows an upgrade that is refused, or comes with it, is no second request."""
-
-    async def main() -> None:
-        async with page_box() as box:
-            host = box.url.removeprefix("http://")
-            hidden = f"POST /api/stop HTTP/1.1\r\nHost: {host}\r\nContent-Length: 0\r\n\r\n"
-            for upgrade in (UPGRADE, UPGRADE.replace("GET /api/live", "GET /api/status")):
-                reader, writer = await asyncio.open_connection(*_place(box))
-                body = f"Content-Length: {len(hidden)}\r\n\r\n"
-                writer.write((upgrade.format(host=host).removesuffix("\r\n") + body + hidden).encode())
-                assert (await reader.readline()).split()[1] in (b"101", b"200", b"400")
-                writer.close()
-            async with box.http.get(f"{box.url}/api/status"):
-                assert box.status.latched == ""
-
-    asyncio.run(main())
+    host = box.url.removeprefix("http://")
+    hidden = f"POST /api/stop HTTP/1.1\r\nHost: {host}\r\nContent-Length: 0\r\n\r\n"
+    for upgrade in (UPGRADE, UPGRADE.replace("GET /api/live", "GET /api/status")):
+        reader, writer = await asyncio.open_connection(*_place(box))
+        body = f"Content-Length: {len(hidden)}\r\n\r\n"
+        writer.write((upgrade.format(host=host).removesuffix("\r\n") + body + hidden).encode())
+        assert (await reader.readline()).split()[1] in (b"101", b"200", b"400")
+        writer.close()
+    async with box.http.get(f"{box.url}/api/status"):
+        assert box.status.latched == ""
 
 
-def test_a_replayed_cookie_of_a_revoked_browser_moves_nothing(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            me = await box.pair()
-            kept = {each.key: each.value for each in box.http.cookie_jar}
-            await box.post("revoke", {"number": me["number"]})
-            async with aiohttp.ClientSession(cookies=kept) as thief:
-                assert (await Box(box.app, box.world, box.url, thief, box.anew).post("point", POINT))[0] == 401
-            assert box.world.drives() == OFF
-
-    asyncio.run(main())
-
-
-def test_the_code_goes_to_nobody_who_does_not_stand_at_the_box(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            assert (await box.post("pair/begin"))[0] == 200
-            code = box.app.lcd_rows(0.0)[0].removeprefix("PAIR CODE ")
-            assert code.isdigit()
-            told = [await box.post("pair/begin"), await box.post("pair", {"code": "x", "name": "thief"})]
-            for path in ("status", "box", "past", "path", "me", "paired", "log", "passes", "openapi.json", "nothing"):
-                told.append(await box.get(path))
-            async with box.http.ws_connect(f"{box.url}/api/live") as live:
-                pictures = [await live.receive_str() for _ in range(3)]
-            assert "PAIR CODE ******" in pictures[-1]
-            assert code not in f"{told}{pictures}"
-
-    asyncio.run(main())
+async def test_the_code_goes_to_nobody_who_does_not_stand_at_the_box(box: Box) -> None:
+    assert (await box.post("pair/begin"))[0] == 200
+    code = box.app.lcd_rows(0.0)[0].removeprefix("PAIR CODE ")
+    assert code.isdigit()
+    told = [await box.post("pair/begin"), await box.post("pair", {"code": "x", "name": "thief"})]
+    for path in ("status", "box", "past", "path", "me", "paired", "log", "passes", "openapi.json", "nothing"):
+        told.append(await box.get(path))
+    async with box.http.ws_connect(f"{box.url}/api/live") as live:
+        pictures = [await live.receive_str() for _ in range(3)]
+    assert "PAIR CODE ******" in pictures[-1]
+    assert code not in f"{told}{pictures}"
 
 
-def test_the_cookie_cannot_be_read_by_scripts_nor_sent_by_other_sites(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.post("pair/begin")
-            code = box.app.lcd_rows(0.0)[0].removeprefix("PAIR CODE ")
-            async with box.http.post(f"{box.url}/api/pair", json={"code": code, "name": "x"}) as answer:
-                (cookie,) = answer.headers.getall("Set-Cookie")
-                token = answer.cookies["rotator"].value
-                assert "HttpOnly" in cookie
-                assert "SameSite=Strict" in cookie
-                assert token not in await answer.text()
-            async with box.http.get(f"{box.url}/") as answer:
-                assert answer.headers["Set-Cookie"] == cookie, "it lasts from the latest visit on"
-
-    asyncio.run(main())
+async def test_the_cookie_cannot_be_read_by_scripts_nor_sent_by_other_sites(box: Box) -> None:
+    await box.post("pair/begin")
+    code = box.app.lcd_rows(0.0)[0].removeprefix("PAIR CODE ")
+    async with box.http.post(f"{box.url}/api/pair", json={"code": code, "name": "x"}) as answer:
+        (cookie,) = answer.headers.getall("Set-Cookie")
+        token = answer.cookies["rotator"].value
+        assert "HttpOnly" in cookie
+        assert "SameSite=Strict" in cookie
+        assert token not in await answer.text()
+    async with box.http.get(f"{box.url}/") as answer:
+        assert answer.headers["Set-Cookie"] == cookie, "it lasts from the latest visit on"
 
 
-def test_every_answer_forbids_foreign_frames_and_foreign_scripts(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            for path in ("/", "/app.js", "/api/status", "/nothing", "/api/nothing", "/../../etc/passwd", "/%2e%2e/x"):
-                async with box.http.get(f"{box.url}{path}") as answer:
-                    policy = answer.headers["Content-Security-Policy"]
-                    assert "default-src 'none'" in policy
-                    assert "frame-ancestors 'none'" in policy
-                    assert "unsafe" not in policy
-                    assert "Access-Control-Allow-Origin" not in answer.headers
-
-    asyncio.run(main())
+async def test_every_answer_forbids_foreign_frames_and_foreign_scripts(box: Box) -> None:
+    for path in ("/", "/app.js", "/api/status", "/nothing", "/api/nothing", "/../../etc/passwd", "/%2e%2e/x"):
+        async with box.http.get(f"{box.url}{path}") as answer:
+            policy = answer.headers["Content-Security-Policy"]
+            assert "default-src 'none'" in policy
+            assert "frame-ancestors 'none'" in policy
+            assert "unsafe" not in policy
+            assert "Access-Control-Allow-Origin" not in answer.headers
 
 
 @pytest.mark.parametrize(
@@ -163,63 +121,55 @@ def test_every_answer_forbids_foreign_frames_and_foreign_scripts(page_box: Start
     ids=["1 GB", "endless"],
 )
 @pytest.mark.parametrize("path", [b"point", b"stop", b"pair"])
-def test_a_body_without_end_is_cut_off(page_box: Start, path: bytes, body: bytes) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            host = box.url.removeprefix("http://").encode()
-            reader, writer = await asyncio.open_connection(*_place(box))
-            writer.write(b"POST /api/" + path + b" HTTP/1.1\r\nHost: " + host + b"\r\n" + body)
-            sent = 0
-            try:
-                async with asyncio.timeout(PATIENCE_S):
-                    while not reader.at_eof():
-                        writer.write(b"1000\r\n" + b"x" * 4096 + b"\r\n")
-                        await writer.drain()
-                        sent += 4096
-                        if sent > 50_000_000:
-                            break
-                        await asyncio.sleep(0)
-                        if reader._buffer:  # type: ignore[attr-defined]
-                            await reader.read(4096)
-            except ConnectionError:
-                pass
-            finally:
-                writer.close()
-            assert sent < 50_000_000
-            assert box.status.wanted_azimuth_deg is None
-            assert (await box.get("status"))[0] == 200
-
-    asyncio.run(main())
+async def test_a_body_without_end_is_cut_off(box: Box, path: bytes, body: bytes) -> None:
+    host = box.url.removeprefix("http://").encode()
+    reader, writer = await asyncio.open_connection(*_place(box))
+    writer.write(b"POST /api/" + path + b" HTTP/1.1\r\nHost: " + host + b"\r\n" + body)
+    sent = 0
+    try:
+        async with asyncio.timeout(PATIENCE_S):
+            while not reader.at_eof():
+                writer.write(b"1000\r\n" + b"x" * 4096 + b"\r\n")
+                await writer.drain()
+                sent += 4096
+                if sent > 50_000_000:
+                    break
+                await asyncio.sleep(0)
+                if reader._buffer:  # type: ignore[attr-defined]
+                    await reader.read(4096)
+    except ConnectionError:
+        pass
+    finally:
+        writer.close()
+    assert sent < 50_000_000
+    assert box.status.wanted_azimuth_deg is None
+    assert (await box.get("status"))[0] == 200
 
 
 @pytest.mark.search
-def test_thousands_of_half_open_requests_keep_nobody_from_stop(page_box: Start) -> None:
+async def test_thousands_of_half_open_requests_keep_nobody_from_stop(box: Box) -> None:
     """As from 250 machines, ten thousand in all in `make test-search`. A person looks on, and presses STOP while they
     come and when all have come."""
-
-    async def main() -> None:
-        async with page_box() as box, box.http.ws_connect(f"{box.url}/api/live") as live:
-            await box.pair()
-            pipe = asyncio.subprocess.PIPE
-            command = (sys.executable, "-m", "tests.web.flood", str(_place(box)[1]), str(examples(10_000)))
-            flood = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe)
-            assert flood.stdout is not None
-            try:
-                for said, aim in ((b"under way\n", POINT), (b"all have come\n", AWAY)):
-                    async with asyncio.timeout(PATIENCE_S):
-                        assert await flood.stdout.readline() == said
-                    await press(box, "resume")
-                    await press(box, "point", aim)
-                    await box.until(lambda: box.world.drives() != OFF)
-                    await press(box, "stop")
-                    await box.until(lambda: box.world.drives() == OFF)
-            finally:
-                await flood.communicate(b"")
-            async with asyncio.timeout(PATIENCE_S):
-                while "STOPPED" not in (await live.receive_json())["now"]["headline"]:
-                    pass
-
-    asyncio.run(main())
+    async with box.http.ws_connect(f"{box.url}/api/live") as live:
+        await box.pair()
+        pipe = asyncio.subprocess.PIPE
+        command = (sys.executable, "-m", "tests.web.flood", str(_place(box)[1]), str(examples(10_000)))
+        flood = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe)
+        assert flood.stdout is not None
+        try:
+            for said, aim in ((b"under way\n", POINT), (b"all have come\n", AWAY)):
+                async with asyncio.timeout(PATIENCE_S):
+                    assert await flood.stdout.readline() == said
+                await press(box, "resume")
+                await press(box, "point", aim)
+                await box.until(lambda: box.world.drives() != OFF)
+                await press(box, "stop")
+                await box.until(lambda: box.world.drives() == OFF)
+        finally:
+            await flood.communicate(b"")
+        async with asyncio.timeout(PATIENCE_S):
+            while "STOPPED" not in (await live.receive_json())["now"]["headline"]:
+                pass
 
 
 async def press(box: Box, path: str, values: object = None) -> None:
@@ -228,26 +178,22 @@ async def press(box: Box, path: str, values: object = None) -> None:
         assert (await Box(box.app, box.world, box.url, person, box.anew).post(path, values))[0] == 200
 
 
-def test_a_reader_that_takes_nothing_is_dropped_and_the_others_see_on(page_box: Start) -> None:
+async def test_a_reader_that_takes_nothing_is_dropped_and_the_others_see_on(box: Box) -> None:
     """Its own queue is as short as its system lets it be."""
-
-    async def main() -> None:
-        async with page_box() as box, box.http.ws_connect(f"{box.url}/api/live") as looker:
-            slow = socket.socket()
-            slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1)
-            slow.connect(_place(box))
-            slow.sendall(UPGRADE.format(host=box.url.removeprefix("http://")).encode())
-            made_s = [(await looker.receive_json())["now"]["utc_s"] for _ in range(FILLED + int(TAKES_S / EVERY_S))]
-            longest_s = max(b - a for a, b in pairwise(made_s))
-            assert longest_s < FILLED * EVERY_S, "no picture waits for the slow one"
-            # One that is still served would get pictures for ever.
-            reader, writer = await asyncio.open_connection(sock=slow)
-            async with asyncio.timeout(PATIENCE_S):
-                with contextlib.suppress(ConnectionError):
-                    await reader.read()
-            writer.close()
-
-    asyncio.run(main())
+    async with box.http.ws_connect(f"{box.url}/api/live") as looker:
+        slow = socket.socket()
+        slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1)
+        slow.connect(_place(box))
+        slow.sendall(UPGRADE.format(host=box.url.removeprefix("http://")).encode())
+        made_s = [(await looker.receive_json())["now"]["utc_s"] for _ in range(FILLED + int(TAKES_S / EVERY_S))]
+        longest_s = max(b - a for a, b in pairwise(made_s))
+        assert longest_s < FILLED * EVERY_S, "no picture waits for the slow one"
+        # One that is still served would get pictures for ever.
+        reader, writer = await asyncio.open_connection(sock=slow)
+        async with asyncio.timeout(PATIENCE_S):
+            with contextlib.suppress(ConnectionError):
+                await reader.read()
+        writer.close()
 
 
 class Transport:
@@ -359,25 +305,21 @@ PLACE = "[station]\nlatitude_deg = 48.123456\nlongitude_deg = 11.654321\n"
 EXACT = re.compile(r"48\.1234|11\.654|JN58td", re.IGNORECASE)
 
 
-def test_a_stranger_learns_the_place_of_the_station_to_a_degree_and_the_paired_see_it(
+async def test_a_stranger_learns_the_place_of_the_station_to_a_degree_and_the_paired_see_it(
     page_box: Start, tmp_path: Path
 ) -> None:
     """Everything that a browser may read without pairing."""
-
-    async def main() -> None:
-        async with page_box(PLACE, file=tmp_path / "r.toml") as box:
-            _, told = await box.get("openapi.json")
-            paths = [path for path, does in told["paths"].items() if "get" in does]
-            assert len(paths) > 15
-            for path in (*paths, "/"):
-                async with box.http.get(box.url + path) as answer:
-                    assert not EXACT.search(await answer.text(errors="replace")), path
-            assert (await box.get("box"))[1]["where"] == [48, 12]
-            async with box.http.ws_connect(f"{box.url}/api/live") as live:
-                assert not EXACT.search(await live.receive_str())
-            await box.pair()
-            assert (await box.get("box"))[1]["where"] == [48.123456, 11.654321]
-            async with box.http.ws_connect(f"{box.url}/api/live") as live:
-                assert (await live.receive_json())["hello"]["box"]["where"] == [48.123456, 11.654321]
-
-    asyncio.run(main())
+    async with page_box(PLACE, file=tmp_path / "r.toml") as box:
+        _, told = await box.get("openapi.json")
+        paths = [path for path, does in told["paths"].items() if "get" in does]
+        assert len(paths) > 15
+        for path in (*paths, "/"):
+            async with box.http.get(box.url + path) as answer:
+                assert not EXACT.search(await answer.text(errors="replace")), path
+        assert (await box.get("box"))[1]["where"] == [48, 12]
+        async with box.http.ws_connect(f"{box.url}/api/live") as live:
+            assert not EXACT.search(await live.receive_str())
+        await box.pair()
+        assert (await box.get("box"))[1]["where"] == [48.123456, 11.654321]
+        async with box.http.ws_connect(f"{box.url}/api/live") as live:
+            assert (await live.receive_json())["hello"]["box"]["where"] == [48.123456, 11.654321]

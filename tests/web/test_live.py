@@ -9,7 +9,7 @@ import os
 import socket
 import sys
 from collections.abc import AsyncIterator, Callable, Mapping
-from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from contextlib import asynccontextmanager
 from typing import Any, cast
 
 import aiohttp
@@ -17,10 +17,8 @@ import pytest
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from rotator.web.live import MOST_SIGNS_PER_S, MOST_WATCHERS, Live
-from tests.web.conftest import OFF, PATIENCE_S, Box
+from tests.web.conftest import OFF, PATIENCE_S, Box, with_box
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
-SIGN_S = 0.12
 SURE_S = 1.5
 """Far longer than a lease: nothing on this machine is as late as this."""
 
@@ -75,138 +73,89 @@ class Edges:
             self.opened_s.append(now_s)
 
 
-def test_pictures_are_numbered_and_hold_what_the_page_shows(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box, live(box) as browser:
-            first = browser.told["n"]
-            assert browser.told["hello"]["paired"] is False
-            await browser.look()
-            assert browser.told["n"] != first
-            now = browser.told["now"]
-            assert now["lcd"] == ["SAT A:--- E:--- ", "SIM A:000 E:000 "]
-            assert now["lamps"] == {"cw": "off", "ccw": "off", "up": "off", "down": "off"}
-            assert now["links"][0]["name"] == "gs232b"
-            assert now["headline"] == "AT REST"
-
-    asyncio.run(main())
+async def test_pictures_are_numbered_and_hold_what_the_page_shows(box: Box) -> None:
+    async with live(box) as browser:
+        first = browser.told["n"]
+        assert browser.told["hello"]["paired"] is False
+        await browser.look()
+        assert browser.told["n"] != first
+        now = browser.told["now"]
+        assert now["lcd"] == ["SAT A:--- E:--- ", "SIM A:000 E:000 "]
+        assert now["lamps"] == {"cw": "off", "ccw": "off", "up": "off", "down": "off"}
+        assert now["links"][0]["name"] == "gs232b"
+        assert now["headline"] == "AT REST"
 
 
 @pytest.mark.parametrize("leaves", ["lets go", "is silent", "is lost"])
-def test_the_antenna_stops_when_the_finger_leaves_or_the_browser_is_heard_no_more(page_box: Start, leaves: str) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            edges = Edges(box.world)
-            async with live(box) as browser:
-                await browser.holds("cw", lambda: box.world.drives() == (1, 0))
-                edges.opened_s.clear()
-                await browser.hold("cw")
-                last_s = asyncio.get_running_loop().time()
-                match leaves:
-                    case "lets go":
-                        await browser.socket.send_str('{"let_go": true}')
-                    case "is lost":
-                        connection = browser.socket.get_extra_info("socket")
-                        assert connection is not None
-                        with socket.socket(fileno=os.dup(connection.fileno())) as wire:
-                            wire.shutdown(socket.SHUT_RDWR)
-                await box.until(lambda: box.world.drives() == OFF)
-                assert edges.opened_s[-1] - last_s < SURE_S
-                sys.stdout.write(f"{leaves}: the relay opened {1000 * (edges.opened_s[-1] - last_s):.0f} ms later\n")
-
-    asyncio.run(main())
+async def test_the_antenna_stops_when_the_finger_leaves_or_the_browser_is_heard_no_more(box: Box, leaves: str) -> None:
+    await box.pair()
+    edges = Edges(box.world)
+    async with live(box) as browser:
+        await browser.holds("cw", lambda: box.world.drives() == (1, 0))
+        edges.opened_s.clear()
+        await browser.hold("cw")
+        last_s = asyncio.get_running_loop().time()
+        match leaves:
+            case "lets go":
+                await browser.socket.send_str('{"let_go": true}')
+            case "is lost":
+                connection = browser.socket.get_extra_info("socket")
+                assert connection is not None
+                with socket.socket(fileno=os.dup(connection.fileno())) as wire:
+                    wire.shutdown(socket.SHUT_RDWR)
+        await box.until(lambda: box.world.drives() == OFF)
+        assert edges.opened_s[-1] - last_s < SURE_S
+        sys.stdout.write(f"{leaves}: the relay opened {1000 * (edges.opened_s[-1] - last_s):.0f} ms later\n")
 
 
-def test_who_is_not_paired_turns_nothing(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box, live(box) as browser:
-            edges = Edges(box.world)
-            await browser.holds("cw", lambda: bool(browser.refused))
-            assert browser.refused[0] == "this browser is not paired"
-            assert box.world.drives() == OFF
-            assert edges.opened_s == []
-
-    asyncio.run(main())
+async def test_who_is_not_paired_turns_nothing(box: Box) -> None:
+    async with live(box) as browser:
+        edges = Edges(box.world)
+        await browser.holds("cw", lambda: bool(browser.refused))
+        assert browser.refused[0] == "this browser is not paired"
+        assert box.world.drives() == OFF
+        assert edges.opened_s == []
 
 
-def test_who_is_revoked_while_a_button_is_held_turns_nothing_more(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            me = await box.pair()
-            async with live(box) as browser:
-                await browser.holds("up", lambda: box.world.drives() == (0, 1))
-                assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
-                with pytest.raises(aiohttp.WSMessageTypeError):  # the box ends the connection
-                    await browser.holds("up", lambda: False)
-                await box.until(lambda: box.world.drives() == OFF)
-            async with live(box) as browser:
-                assert browser.told["hello"]["paired"] is False
-                await browser.holds("up", lambda: bool(browser.refused))
-                assert browser.refused == ["this browser is not paired"]
-                assert box.world.drives() == OFF
-
-    asyncio.run(main())
+async def test_who_is_revoked_while_a_button_is_held_turns_nothing_more(box: Box) -> None:
+    me = await box.pair()
+    async with live(box) as browser:
+        await browser.holds("up", lambda: box.world.drives() == (0, 1))
+        assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
+        with pytest.raises(aiohttp.WSMessageTypeError):  # the box ends the connection
+            await browser.holds("up", lambda: False)
+        await box.until(lambda: box.world.drives() == OFF)
+    async with live(box) as browser:
+        assert browser.told["hello"]["paired"] is False
+        await browser.holds("up", lambda: bool(browser.refused))
+        assert browser.refused == ["this browser is not paired"]
+        assert box.world.drives() == OFF
 
 
-def test_who_is_revoked_by_another_may_look_on_and_its_page_comes_back(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            me = await box.pair()
-            async with live(box) as browser:
-                await box.pair("another browser")
-                assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
-                with pytest.raises(aiohttp.WSMessageTypeError):
-                    await browser.holds("up", lambda: False)
-
-    asyncio.run(main())
-
-
-def test_a_refusal_says_which_press_it_means(page_box: Start) -> None:
-    """A short press is over when the answer comes, and the next one may have begun."""
-
-    async def main() -> None:
-        async with page_box() as box, live(box) as browser:
-            await browser.hold("cw", press=7)
-            answer: dict[str, Any] = {}
-            while "refused" not in answer:
-                answer = json.loads(await asyncio.wait_for(browser.socket.receive_str(), PATIENCE_S))
-            assert answer == {"refused": "this browser is not paired", "press": 7}
-
-    asyncio.run(main())
+async def test_a_stop_ends_what_is_held_and_the_held_button_starts_nothing(box: Box) -> None:
+    await box.pair()
+    async with live(box) as browser:
+        await browser.holds("cw", lambda: box.world.drives() == (1, 0))
+        assert (await box.post("stop"))[0] == 200
+        await box.until(lambda: box.world.drives() == OFF)
+        edges = Edges(box.world)
+        await browser.holds("cw", lambda: bool(browser.refused))
+        assert edges.opened_s == []
+        assert browser.refused[0].startswith("stopped by a browser")
 
 
-def test_a_stop_ends_what_is_held_and_the_held_button_starts_nothing(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            async with live(box) as browser:
-                await browser.holds("cw", lambda: box.world.drives() == (1, 0))
-                assert (await box.post("stop"))[0] == 200
-                await box.until(lambda: box.world.drives() == OFF)
-                edges = Edges(box.world)
-                await browser.holds("cw", lambda: bool(browser.refused))
-                assert edges.opened_s == []
-                assert browser.refused[0].startswith("stopped by a browser")
-
-    asyncio.run(main())
+async def test_a_stop_on_the_live_connection_needs_no_pairing_and_no_patience(box: Box) -> None:
+    await box.pair()
+    await box.post("point", {"azimuth_deg": 300, "elevation_deg": 60})
+    await box.until(lambda: box.world.drives() != OFF)
+    async with aiohttp.ClientSession() as stranger, stranger.ws_connect(f"{box.url}/api/live") as socket:
+        for _ in range(MOST_SIGNS_PER_S):
+            await socket.send_str('{"let_go": true}')
+        await socket.send_str('{"stop": true}')
+        await box.until(lambda: box.world.drives() == OFF and box.status.latched == "page")
 
 
-def test_a_stop_on_the_live_connection_needs_no_pairing_and_no_patience(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            await box.post("point", {"azimuth_deg": 300, "elevation_deg": 60})
-            await box.until(lambda: box.world.drives() != OFF)
-            async with aiohttp.ClientSession() as stranger, stranger.ws_connect(f"{box.url}/api/live") as socket:
-                for _ in range(MOST_SIGNS_PER_S):
-                    await socket.send_str('{"let_go": true}')
-                await socket.send_str('{"stop": true}')
-                await box.until(lambda: box.world.drives() == OFF and box.status.latched == "page")
-
-    asyncio.run(main())
-
-
-def test_where_all_places_are_taken_the_machine_that_has_most_watchers_loses_one() -> None:
+async def test_where_all_places_are_taken_the_machine_that_has_most_watchers_loses_one() -> None:
     class Socket:
         """As much of a socket as a watcher needs."""
 
@@ -224,67 +173,54 @@ def test_where_all_places_are_taken_the_machine_that_has_most_watchers_loses_one
         async def __anext__(self) -> None:
             await asyncio.Event().wait()
 
-    async def main() -> None:
-        watched = Live(dict, lambda: None, lambda: 0.0)
-        sockets = [Socket() for _ in range(MOST_WATCHERS + 1)]
-        tasks = []
-        for number, each in enumerate(sockets):
-            host = "192.168.1.66" if number else "192.168.1.2"
-            serving = watched.serve(cast(Any, each), {}, None, lambda: True, stop=lambda: "", host=host)
-            tasks.append(asyncio.create_task(serving))
-            await asyncio.sleep(0)
-        assert [number for number, each in enumerate(sockets) if each.closed] == [1]
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
-
-    asyncio.run(main())
+    watched = Live(dict, lambda: None, lambda: 0.0)
+    sockets = [Socket() for _ in range(MOST_WATCHERS + 1)]
+    tasks = []
+    for number, each in enumerate(sockets):
+        host = "192.168.1.66" if number else "192.168.1.2"
+        serving = watched.serve(cast(Any, each), {}, None, lambda: True, stop=lambda: "", host=host)
+        tasks.append(asyncio.create_task(serving))
+        await asyncio.sleep(0)
+    assert [number for number, each in enumerate(sockets) if each.closed] == [1]
+    for task in tasks:
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
 
 
 @pytest.mark.parametrize(
     "text", ["", "{", "[]", '{"hold": "cw"}', '{"hold": "left", "press": 1, "n": 1}', "null", "9" * 250]
 )
-def test_other_words_turn_nothing(page_box: Start, text: str) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            async with live(box) as browser:
-                await browser.socket.send_str(text)
-                while not browser.refused:
-                    await browser.look()
-                assert box.world.drives() == OFF
-
-    asyncio.run(main())
+async def test_other_words_turn_nothing(box: Box, text: str) -> None:
+    await box.pair()
+    async with live(box) as browser:
+        await browser.socket.send_str(text)
+        while not browser.refused:
+            await browser.look()
+        assert box.world.drives() == OFF
 
 
-def test_one_bad_picture_is_told_and_the_next_ones_come(caplog: pytest.LogCaptureFixture) -> None:
-    async def main() -> None:
-        noted = asyncio.Event()
-        notes: list[float] = []
+async def test_one_bad_picture_is_told_and_the_next_ones_come(caplog: pytest.LogCaptureFixture) -> None:
+    noted = asyncio.Event()
+    notes: list[float] = []
 
-        def note() -> None:
-            notes.append(0.0)
-            if len(notes) < 3:
-                raise ZeroDivisionError("a bad picture")
-            noted.set()
+    def note() -> None:
+        notes.append(0.0)
+        if len(notes) < 3:
+            raise ZeroDivisionError("a bad picture")
+        noted.set()
 
-        seconds = itertools.count()
-        task = asyncio.create_task(Live(dict, note, lambda: float(next(seconds))).run())
-        await asyncio.wait_for(noted.wait(), PATIENCE_S)
-        task.cancel()
-
-    asyncio.run(main())
+    seconds = itertools.count()
+    task = asyncio.create_task(Live(dict, note, lambda: float(next(seconds))).run())
+    await asyncio.wait_for(noted.wait(), PATIENCE_S)
+    task.cancel()
     assert [record.getMessage() for record in caplog.records] == ["page: a picture cannot be made"]
 
 
-def test_where_reading_is_closed_the_pictures_end_with_the_pairing(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box(page='reading = "paired"') as box:
-            me = await box.pair()
-            async with live(box) as browser:
-                assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
-                async with asyncio.timeout(PATIENCE_S):
-                    while (await browser.socket.receive()).type is aiohttp.WSMsgType.TEXT:
-                        pass
-
-    asyncio.run(main())
+@with_box(page='reading = "paired"')
+async def test_where_reading_is_closed_the_pictures_end_with_the_pairing(box: Box) -> None:
+    me = await box.pair()
+    async with live(box) as browser:
+        assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
+        async with asyncio.timeout(PATIENCE_S):
+            while (await browser.socket.receive()).type is aiohttp.WSMsgType.TEXT:
+                pass

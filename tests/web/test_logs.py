@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable, Iterator
-from contextlib import AbstractAsyncContextManager
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from rotator.web.logs import MOST_LINES, HttpLog, LogLines
-from tests.web.conftest import PATIENCE_S, Box
-
-Start = Callable[..., AbstractAsyncContextManager[Box]]
+from tests.web.conftest import PATIENCE_S, Box, Start
 
 
 @pytest.fixture
@@ -41,35 +38,28 @@ def test_a_line_that_cannot_be_written_ends_nothing(lines: LogLines, monkeypatch
     assert [line["text"] for line in lines.latest_first()] == ["and on"]
 
 
-def test_the_log_is_for_paired_browsers(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            assert (await box.get("log"))[0] == 401
-            await box.pair("Anna's phone")
-            await box.post("stop")
-            async with asyncio.timeout(PATIENCE_S):
-                while not any("stopped by Anna" in line["text"] for line in (await box.get("log"))[1]["lines"]):
-                    await asyncio.sleep(0)
-
-    asyncio.run(main())
+async def test_the_log_is_for_paired_browsers(box: Box) -> None:
+    assert (await box.get("log"))[0] == 401
+    await box.pair("Anna's phone")
+    await box.post("stop")
+    async with asyncio.timeout(PATIENCE_S):
+        while not any("stopped by Anna" in line["text"] for line in (await box.get("log"))[1]["lines"]):
+            await asyncio.sleep(0)
 
 
-def test_bytes_that_are_no_request_are_told_in_one_line(page_box: Start, caplog: Any) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            host, _, port = box.url.removeprefix("http://").partition(":")
-            for junk in (
-                b"\x16\x03\x01\x02\x00\x01\r\n\r\n",
-                b"GET / HTTP/9.9\r\n\r\n",
-                b"\x00" * 100 + b"\r\n\r\n",
-            ) * 5:
-                reader, writer = await asyncio.open_connection(host, int(port))
-                writer.write(junk)
-                assert b"400" in await reader.readline()
-                writer.close()
-            assert (await box.get("status"))[0] == 200
-
-    asyncio.run(main())
+async def test_bytes_that_are_no_request_are_told_in_one_line(page_box: Start, caplog: Any) -> None:
+    async with page_box() as box:
+        host, _, port = box.url.removeprefix("http://").partition(":")
+        for junk in (
+            b"\x16\x03\x01\x02\x00\x01\r\n\r\n",
+            b"GET / HTTP/9.9\r\n\r\n",
+            b"\x00" * 100 + b"\r\n\r\n",
+        ) * 5:
+            reader, writer = await asyncio.open_connection(host, int(port))
+            writer.write(junk)
+            assert b"400" in await reader.readline()
+            writer.close()
+        assert (await box.get("status"))[0] == 200
     about = [record for record in caplog.records if record.name == "rotator.web.http"]
     assert [record.getMessage() for record in about] == ["page: a request was no HTTP"]
     assert about[0].exc_info is None

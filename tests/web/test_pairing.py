@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.store.paired import MOST, PairedFile, PairedList
+from rotator.store.paired import PairedFile, PairedList
 from rotator.web.pairing import LASTS_S, Pairings
 from rotator.web.pairing_code import CODE_S, MOST_TRIES, TRIES, WAIT_S, NotPairedError
 
@@ -159,15 +159,6 @@ def test_the_file_has_no_token_and_a_new_start_knows_it(pairings: Pairings, tmp_
     assert again.name == "curl"
 
 
-def test_a_revoked_token_is_none(pairings: Pairings) -> None:
-    token = pairings.token("lost phone")
-    one = pairings.known(token)
-    assert one is not None
-    assert pairings.revoke(one.number) == ""
-    assert pairings.known(token) is None
-    assert "no browser or program" in pairings.revoke(one.number)
-
-
 def test_a_token_that_was_not_seen_for_half_a_year_is_none(pairings: Pairings, clocks: Clocks) -> None:
     used, forgotten = pairings.token("used"), pairings.token("forgotten")
     for _ in range(4):
@@ -261,13 +252,6 @@ def test_what_changes_while_the_disk_is_slow_is_kept_too(tmp_path: Path, clocks:
     slow.keep()
     assert seen in opened(tmp_path, clocks).all()
     assert opened(tmp_path, clocks).all() == slow.all()
-
-
-def test_numbers_are_never_given_twice_while_one_lives(pairings: Pairings) -> None:
-    for _ in range(MOST + 5):
-        pairings.token("many")
-    numbers = [one.number for one in pairings.all()]
-    assert len(set(numbers)) == len(numbers) == MOST
 
 
 @pytest.mark.parametrize(

@@ -28,17 +28,13 @@ async def computed(passes: Passes) -> dict[str, Any]:
         return answer
 
 
-def test_an_error_is_not_kept_for_long() -> None:
+async def test_an_error_is_not_kept_for_long() -> None:
     now_s = [0.0]
-
-    async def main() -> None:
-        passes = Passes(printing("", 3), lambda: now_s[0])
-        assert "error" in await computed(passes)
-        now_s[0] = ERROR_KEPT_S
-        assert passes.answer() is None
-        await computed(passes)
-
-    asyncio.run(main())
+    passes = Passes(printing("", 3), lambda: now_s[0])
+    assert "error" in await computed(passes)
+    now_s[0] = ERROR_KEPT_S
+    assert passes.answer() is None
+    await computed(passes)
 
 
 def test_they_are_those_of_the_command_line(tmp_path: Path) -> None:
@@ -49,40 +45,32 @@ def test_they_are_those_of_the_command_line(tmp_path: Path) -> None:
     assert "error" in answer or {"name", "aos", "los", "max_el_deg"} <= answer["passes"][0].keys()
 
 
-def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
+async def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
     counts = tmp_path / "counts"
     words = (sys.executable, "-c", f"open({str(counts)!r}, 'a').write('x'); print('[]')")
     now_s = [0.0]
-
-    async def main() -> None:
-        passes = Passes(words, lambda: now_s[0])
-        assert passes.answer() is None, "no request waits for them"
-        assert await asyncio.gather(computed(passes), computed(passes)) == [{"passes": []}] * 2
-        assert counts.read_text() == "x"
-        now_s[0] = KEPT_S
-        await computed(passes)
-        assert counts.read_text() == "xx"
-
-    asyncio.run(main())
+    passes = Passes(words, lambda: now_s[0])
+    assert passes.answer() is None, "no request waits for them"
+    assert await asyncio.gather(computed(passes), computed(passes)) == [{"passes": []}] * 2
+    assert counts.read_text() == "x"
+    now_s[0] = KEPT_S
+    await computed(passes)
+    assert counts.read_text() == "xx"
 
 
-def test_new_elements_change_them(tmp_path: Path) -> None:
+async def test_new_elements_change_them(tmp_path: Path) -> None:
     """Also those that the box has fetched by itself, or that a person has copied there."""
     counts = tmp_path / "counts"
     words = (sys.executable, "-c", f"open({str(counts)!r}, 'a').write('x'); print('[]')")
     known: list[object] = [()]
-
-    async def main() -> None:
-        passes = Passes(words, lambda: 0.0, lambda: known[0])
-        await computed(passes)
-        assert passes.answer() is not None, "nothing is new"
-        known[0] = ("ISS",)
-        assert passes.answer() is None
-        await computed(passes)
-        assert passes.latest == []
-        assert counts.read_text() == "xx"
-
-    asyncio.run(main())
+    passes = Passes(words, lambda: 0.0, lambda: known[0])
+    await computed(passes)
+    assert passes.answer() is not None, "nothing is new"
+    known[0] = ("ISS",)
+    assert passes.answer() is None
+    await computed(passes)
+    assert passes.latest == []
+    assert counts.read_text() == "xx"
 
 
 @pytest.mark.parametrize(

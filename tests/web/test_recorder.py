@@ -88,13 +88,6 @@ def test_a_motor_that_runs_when_it_begins_has_clicked_once() -> None:
     assert watched.over[0].clicks_s == {"azimuth": [0.0], "elevation": []}
 
 
-def test_without_relays_there_are_no_clicks() -> None:
-    watched = Watched()
-    watched.look(RISE_S, RISE_S + 30.0, starts=None)
-    watched.recorder.end()
-    assert watched.over[0].relay_starts is None
-
-
 def test_a_short_part_and_another_targets_order_leave_nothing() -> None:
     watched = Watched()
     watched.look(RISE_S, RISE_S + 10.0)

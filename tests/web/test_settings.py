@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 from typing import Any
 
@@ -16,15 +14,9 @@ from rotator.exchange.sources import Source
 from rotator.exchange.status import Latch
 from rotator.runtime.anew import Anew
 from rotator.web.settings import MOST_BODY
-from tests.web.conftest import PATIENCE_S, Box
+from tests.web.conftest import PATIENCE_S, Box, Start, with_box
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 REMARK = "[station]\nlocator = 'JO62qm' # my garden\n"
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> Path:
-    return tmp_path / "r.toml"
 
 
 def change(place: list[Any], value: object) -> dict[str, object]:
@@ -36,79 +28,56 @@ async def change_from(box: Box, *changes: dict[str, object], **more: object) -> 
     return {"digest": told["digest"], "changes": list(changes), **more}
 
 
-def test_a_change_is_shown_then_written_with_the_old_file_beside_it(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            await box.pair()
-            before = file.read_text()
-            wanted = await change_from(box, change(["station", "locator"], "JN58td"))
-            status, told = await box.post("settings/check", wanted)
-            assert status == 200
-            assert told["mistakes"] == []
-            assert '+locator = "JN58td" # my garden' in told["diff"]
-            assert file.read_text() == before, "a check writes nothing"
-            assert (await box.post("settings/write", wanted))[0] == 200
-            assert load(file).station.locator == "JN58td"
-            assert file.with_name("r.toml.bak").read_text() == before
-            await box.until(lambda: box.anew.asked)
-
-    asyncio.run(main())
+@with_box(REMARK, file=True)
+async def test_a_change_is_shown_then_written_with_the_old_file_beside_it(box: Box, file: Path) -> None:
+    await box.pair()
+    before = file.read_text()
+    wanted = await change_from(box, change(["station", "locator"], "JN58td"))
+    status, told = await box.post("settings/check", wanted)
+    assert status == 200
+    assert told["mistakes"] == []
+    assert '+locator = "JN58td" # my garden' in told["diff"]
+    assert file.read_text() == before, "a check writes nothing"
+    assert (await box.post("settings/write", wanted))[0] == 200
+    assert load(file).station.locator == "JN58td"
+    assert file.with_name("r.toml.bak").read_text() == before
+    await box.until(lambda: box.anew.asked)
 
 
-def test_a_mistake_is_told_beside_its_key_in_the_loaders_words(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            await box.pair()
-            before = file.read_text()
-            wanted = await change_from(
-                box, change(["azimuth", "tolerance_deg"], 99), change(["link", 0, "bauds"], 1), change(["lcds", "x"], 1)
-            )
-            status, told = await box.post("settings/check", wanted)
-            assert status == 200
-            found = [(each["places"], each["text"]) for each in told["mistakes"]]
-            assert (
-                [["azimuth", "tolerance_deg"]],
-                "azimuth.tolerance_deg = 99: must be less than or equal to 45",
-            ) in found
-            assert ([["link", 0, "bauds"]], "the first [[link]]: bauds = 1: no such key; did you mean baud?") in found
-            assert any(places == [["lcds"]] and "no such table; did you mean [lcd]?" in text for places, text in found)
-            status, told = await box.post("settings/write", wanted)
-            assert status == 422
-            assert file.read_text() == before
-            assert not box.anew.asked
-
-    asyncio.run(main())
+@with_box(REMARK, file=True)
+async def test_a_mistake_is_told_beside_its_key_in_the_loaders_words(box: Box, file: Path) -> None:
+    await box.pair()
+    before = file.read_text()
+    wanted = await change_from(
+        box, change(["azimuth", "tolerance_deg"], 99), change(["link", 0, "bauds"], 1), change(["lcds", "x"], 1)
+    )
+    status, told = await box.post("settings/check", wanted)
+    assert status == 200
+    found = [(each["places"], each["text"]) for each in told["mistakes"]]
+    assert (
+        [["azimuth", "tolerance_deg"]],
+        "azimuth.tolerance_deg = 99: must be less than or equal to 45",
+    ) in found
+    assert ([["link", 0, "bauds"]], "the first [[link]]: bauds = 1: no such key; did you mean baud?") in found
+    assert any(places == [["lcds"]] and "no such table; did you mean [lcd]?" in text for places, text in found)
+    status, told = await box.post("settings/write", wanted)
+    assert status == 422
+    assert file.read_text() == before
+    assert not box.anew.asked
 
 
-def test_the_second_of_two_browsers_is_told_that_the_file_has_changed(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            await box.pair()
-            anna = await change_from(box, change(["station", "locator"], "JN58td"))
-            bert = await change_from(box, change(["azimuth", "offset_deg"], 3))
-            assert (await box.post("settings/write", anna))[0] == 200
-            written = file.read_text()
-            for path in ("settings/check", "settings/write"):
-                status, told = await box.post(path, bert)
-                assert status == 409
-                assert "has been changed meanwhile" in told["error"]
-            assert file.read_text() == written
-
-    asyncio.run(main())
-
-
-def test_strangers_read_nothing_and_write_nothing(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            before = file.read_text()
-            assert (await box.get("settings"))[0] == 401
-            assert (await box.get("settings/form"))[0] == 401
-            for path in ("settings/check", "settings/write", "restart"):
-                assert (await box.post(path, {"digest": "", "changes": []}))[0] == 401
-            assert file.read_text() == before
-            assert not box.anew.asked
-
-    asyncio.run(main())
+@with_box(REMARK, file=True)
+async def test_the_second_of_two_browsers_is_told_that_the_file_has_changed(box: Box, file: Path) -> None:
+    await box.pair()
+    anna = await change_from(box, change(["station", "locator"], "JN58td"))
+    bert = await change_from(box, change(["azimuth", "offset_deg"], 3))
+    assert (await box.post("settings/write", anna))[0] == 200
+    written = file.read_text()
+    for path in ("settings/check", "settings/write"):
+        status, told = await box.post(path, bert)
+        assert status == 409
+        assert "has been changed meanwhile" in told["error"]
+    assert file.read_text() == written
 
 
 @pytest.mark.parametrize(
@@ -130,156 +99,111 @@ def test_strangers_read_nothing_and_write_nothing(page_box: Start, file: Path) -
     ],
     ids=lambda body: str(body)[:60],
 )
-def test_a_body_that_is_no_change_is_refused(page_box: Start, file: Path, body: dict[str, Any]) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            await box.pair()
-            before, (_, told) = file.read_text(), await box.get("settings")
-            sent = {**body, "digest": told["digest"]} if body.get("digest") == "D" else body
-            status, told = await box.post("settings/write", sent)
-            assert status == 400
-            assert told["error"]
-            assert file.read_text() == before
-
-    asyncio.run(main())
+@with_box(REMARK, file=True)
+async def test_a_body_that_is_no_change_is_refused(box: Box, file: Path, body: dict[str, Any]) -> None:
+    await box.pair()
+    before, (_, told) = file.read_text(), await box.get("settings")
+    sent = {**body, "digest": told["digest"]} if body.get("digest") == "D" else body
+    status, told = await box.post("settings/write", sent)
+    assert status == 400
+    assert told["error"]
+    assert file.read_text() == before
 
 
-@pytest.mark.parametrize("value", [[[[[[[[1]]]]]]], {"a": {"b": 1}}, 1e400, "x" * 5000, "\x00", None, [None]], ids=repr)
-def test_a_strange_value_is_refused_by_the_loader(page_box: Start, file: Path, value: object) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            await box.pair()
-            wanted = await change_from(box, change(["azimuth", "max_deg"], value))
-            status, _ = await box.post("settings/write", wanted)
-            assert status in ((200,) if value is None else (400, 422))
-            load(file)
+@with_box(REMARK, file=True)
+async def test_a_body_beyond_the_bound_is_cut_off(box: Box) -> None:
+    await box.pair()
 
-    asyncio.run(main())
+    async def endless() -> Any:
+        for _ in range(1000):
+            yield b" " * 4096
 
-
-def test_a_body_beyond_the_bound_is_cut_off(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            await box.pair()
-
-            async def endless() -> Any:
-                for _ in range(1000):
-                    yield b" " * 4096
-
-            async with box.http.post(f"{box.url}/api/settings/write", data=b"x" * (MOST_BODY + 1)) as answer:
-                assert answer.status == 413
-            try:
-                async with box.http.post(f"{box.url}/api/settings/write", data=endless()) as answer:
-                    assert answer.status == 413
-            except aiohttp.ClientError:
-                pass  # cut off in the middle
-            assert (await box.get("status"))[0] == 200
-
-    asyncio.run(main())
+    async with box.http.post(f"{box.url}/api/settings/write", data=b"x" * (MOST_BODY + 1)) as answer:
+        assert answer.status == 413
+    try:
+        async with box.http.post(f"{box.url}/api/settings/write", data=endless()) as answer:
+            assert answer.status == 413
+    except aiohttp.ClientError:
+        pass  # cut off in the middle
+    assert (await box.get("status"))[0] == 200
 
 
-def test_a_new_start_never_stops_the_antenna_unsaid(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(REMARK, file=file) as box:
-            await box.pair()
-            await box.post("point", {"azimuth_deg": 200, "elevation_deg": 60})
-            await box.until(lambda: box.status.moving)
-            wanted = await change_from(box, change(["azimuth", "offset_deg"], 3))
-            for path, body in (("settings/write", wanted), ("restart", {})):
-                status, told = await box.post(path, body)
-                assert status == 409
-                assert "the antenna moves, and the new start stops it" in told["error"]
-            assert load(file).azimuth.offset_deg == 0
-            assert (await box.post("settings/write", {**wanted, "stop": True}))[0] == 200
-            await box.until(lambda: box.anew.asked)
-
-    asyncio.run(main())
+@with_box(REMARK, file=True)
+async def test_a_new_start_never_stops_the_antenna_unsaid(box: Box, file: Path) -> None:
+    await box.pair()
+    await box.post("point", {"azimuth_deg": 200, "elevation_deg": 60})
+    await box.until(lambda: box.status.moving)
+    wanted = await change_from(box, change(["azimuth", "offset_deg"], 3))
+    for path, body in (("settings/write", wanted), ("restart", {})):
+        status, told = await box.post(path, body)
+        assert status == 409
+        assert "the antenna moves, and the new start stops it" in told["error"]
+    assert load(file).azimuth.offset_deg == 0
+    assert (await box.post("settings/write", {**wanted, "stop": True}))[0] == 200
+    await box.until(lambda: box.anew.asked)
 
 
-def test_a_box_without_a_file_gets_one(page_box: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_box_without_a_file_gets_one(page_box: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     own = tmp_path / "rotator.toml"
-
-    async def main() -> None:
-        async with page_box() as box:
-            assert (await box.post("settings/file"))[0] == 401
-            await box.pair()
-            _, told = await box.get("settings")
-            assert told["file"] == ""
-            assert told["in_force"]["rotor"]["hardware"] == "sim"
-            for path, body in (
-                ("settings/write", {"digest": told["digest"], "changes": []}),
-                ("calibrate", {"axis": "azimuth"}),
-            ):
-                status, refused = await box.post(path, body)
-                assert status == 409
-                assert "rotator config --to rotator.toml" in refused["error"]
-            assert await box.post("settings/file") == (200, {"ok": True, "run": told["run"]})
-            await box.until(lambda: box.anew.asked)
-            assert (box.anew.file, own.read_text()) == (own, shipped())
-
-    asyncio.run(main())
+    async with page_box() as box:
+        assert (await box.post("settings/file"))[0] == 401
+        await box.pair()
+        _, told = await box.get("settings")
+        assert told["file"] == ""
+        assert told["in_force"]["rotor"]["hardware"] == "sim"
+        for path, body in (
+            ("settings/write", {"digest": told["digest"], "changes": []}),
+            ("calibrate", {"axis": "azimuth"}),
+        ):
+            status, refused = await box.post(path, body)
+            assert status == 409
+            assert "rotator config --to rotator.toml" in refused["error"]
+        assert await box.post("settings/file") == (200, {"ok": True, "run": told["run"]})
+        await box.until(lambda: box.anew.asked)
+        assert (box.anew.file, own.read_text()) == (own, shipped())
 
 
 @pytest.mark.parametrize(
     ("text", "status"), [("[azimuth]\nmax_deg = 400\n", 200), ("[azimuth]\nmax_deg = true\n", 409), ("", 409)]
 )
-def test_a_file_that_is_there_is_taken_as_it_is_or_refused(
+async def test_a_file_that_is_there_is_taken_as_it_is_or_refused(
     page_box: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, status: int
 ) -> None:
     monkeypatch.chdir(tmp_path)
     own = tmp_path / "rotator.toml"
     own.write_text(text)
-
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            assert (await box.post("settings/file"))[0] == status
-            assert box.anew.file == (own if status == 200 else None)
-            assert own.read_text() == text
-
-    asyncio.run(main())
+    async with page_box() as box:
+        await box.pair()
+        assert (await box.post("settings/file"))[0] == status
+        assert box.anew.file == (own if status == 200 else None)
+        assert own.read_text() == text
 
 
-def test_a_box_with_a_file_gets_no_other(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(file=file) as box:
-            await box.pair()
-            assert await box.post("settings/file") == (409, {"error": f"the box has a file: {file}"})
-
-    asyncio.run(main())
-
-
-def test_every_table_and_key_of_the_model_has_a_form(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(file=file) as box:
-            await box.pair()
+@with_box(file=True)
+async def test_every_table_and_key_of_the_model_has_a_form(box: Box) -> None:
+    await box.pair()
+    status, told = await box.get("settings/form")
+    async with asyncio.timeout(PATIENCE_S):
+        while status == 202:
             status, told = await box.get("settings/form")
-            async with asyncio.timeout(PATIENCE_S):
-                while status == 202:
-                    status, told = await box.get("settings/form")
-            tables = {".".join(table["path"]): table for table in told["tables"]}
-            assert tables["link"]["many"]
-            (found,) = [key for key in tables["azimuth"]["keys"] if key["key"] == "tolerance_deg"]
-            assert found == {
-                "key": "tolerance_deg", "kind": "number", "unit": "°", "above": 0, "most": 45, "needed": False,
-                "meaning": "The pointing error on the sky at which a motor starts.",
-            }  # fmt: skip
-            assert all(key["meaning"] for table in told["tables"] for key in table["keys"])
-
-    asyncio.run(main())
+    tables = {".".join(table["path"]): table for table in told["tables"]}
+    assert tables["link"]["many"]
+    (found,) = [key for key in tables["azimuth"]["keys"] if key["key"] == "tolerance_deg"]
+    assert found == {
+        "key": "tolerance_deg", "kind": "number", "unit": "°", "above": 0, "most": 45, "needed": False,
+        "meaning": "The pointing error on the sky at which a motor starts.",
+    }  # fmt: skip
+    assert all(key["meaning"] for table in told["tables"] for key in table["keys"])
 
 
-def test_a_stop_and_a_hold_outlive_the_new_start(page_box: Start, file: Path) -> None:
-    async def main() -> None:
-        async with page_box(file=file) as box:
-            me = await box.pair()
-            await box.post("take")
-            await box.post("stop")
-            await box.until(lambda: bool(box.status.latched and box.status.held_by))
-            anew = Anew()
-            anew.ask(box.status)
-            browser = Source("page", me["number"])
-            assert (anew.holder, anew.latch) == (browser, Latch(str(browser)))
-
-    asyncio.run(main())
+@with_box(file=True)
+async def test_a_stop_and_a_hold_outlive_the_new_start(box: Box) -> None:
+    me = await box.pair()
+    await box.post("take")
+    await box.post("stop")
+    await box.until(lambda: bool(box.status.latched and box.status.held_by))
+    anew = Anew()
+    anew.ask(box.status)
+    browser = Source("page", me["number"])
+    assert (anew.holder, anew.latch) == (browser, Latch(str(browser)))

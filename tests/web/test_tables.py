@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -17,7 +15,6 @@ from rotator.web.tables import MOST_BYTES
 from tests.web.conftest import OFF, PATIENCE_S, Box
 from tests.web.test_orders import at_the_console
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 GOOD = b"t,az,el\n20,30,5\n40,50,20\n"
 
 
@@ -26,21 +23,17 @@ async def send(box: Box, content: bytes, name: str = "my pass.csv") -> tuple[int
         return answer.status, await answer.json()
 
 
-def test_a_table_is_tracked_and_who_sent_it_holds_the_antenna(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            assert (await send(box, GOOD))[0] == 401
-            await box.pair("Anna")
-            assert await send(box, GOOD) == (200, {"ok": True})
-            await box.until(lambda: box.status.flown is not None)
-            assert box.status.flown is not None
-            assert box.status.flown.name == "my-pass"
-            assert box.status.flown.table
-            assert box.status.held_by == "page#1"
-            assert (await box.post("track", {"target": "off"}))[0] == 200
-            await box.until(lambda: box.status.flown is None)
-
-    asyncio.run(main())
+async def test_a_table_is_tracked_and_who_sent_it_holds_the_antenna(box: Box) -> None:
+    assert (await send(box, GOOD))[0] == 401
+    await box.pair("Anna")
+    assert await send(box, GOOD) == (200, {"ok": True})
+    await box.until(lambda: box.status.flown is not None)
+    assert box.status.flown is not None
+    assert box.status.flown.name == "my-pass"
+    assert box.status.flown.table
+    assert box.status.held_by == "page#1"
+    assert (await box.post("track", {"target": "off"}))[0] == 200
+    await box.until(lambda: box.status.flown is None)
 
 
 def utc(from_now_s: float) -> str:
@@ -62,35 +55,27 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_a_table_with_a_mistake_moves_nothing(page_box: Start, name: str) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            status, told = await send(box, WRONG[name], "bad.csv")
-            assert status == 400
-            assert told["error"].startswith("bad.csv:")
-            assert box.world.drives() == OFF
-            assert box.status.flown is None
-
-    asyncio.run(main())
+async def test_a_table_with_a_mistake_moves_nothing(box: Box, name: str) -> None:
+    await box.pair()
+    status, told = await send(box, WRONG[name], "bad.csv")
+    assert status == 400
+    assert told["error"].startswith("bad.csv:")
+    assert box.world.drives() == OFF
+    assert box.status.flown is None
 
 
-def test_what_no_antenna_can_follow_is_told_and_moves_nothing(page_box: Start, tmp_path: Path) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            assert (await send(box, b"", name=""))[0] == 400
-            assert (await send(box, b"t" * (MOST_BYTES + 1)))[0] == 413
-            over = f"t,az,el\n{utc(-500)},20,5\n{utc(-400)},30,10\n"
-            early = "t,az,el\n1970-01-01T00:00:20Z,20,5\n1970-01-01T00:00:40Z,30,10\n"
-            for name, table in (("over", over), ("early", early)):
-                assert (await send(box, table.encode(), f"{name}.csv"))[0] == 200
-                async with asyncio.timeout(PATIENCE_S):
-                    while await at_the_console(tmp_path, "track") != [f"ended: {name} is over"]:
-                        await asyncio.sleep(0.05)
-            assert box.world.drives() == OFF
-
-    asyncio.run(main())
+async def test_what_no_antenna_can_follow_is_told_and_moves_nothing(box: Box, tmp_path: Path) -> None:
+    await box.pair()
+    assert (await send(box, b"", name=""))[0] == 400
+    assert (await send(box, b"t" * (MOST_BYTES + 1)))[0] == 413
+    over = f"t,az,el\n{utc(-500)},20,5\n{utc(-400)},30,10\n"
+    early = "t,az,el\n1970-01-01T00:00:20Z,20,5\n1970-01-01T00:00:40Z,30,10\n"
+    for name, table in (("over", over), ("early", early)):
+        assert (await send(box, table.encode(), f"{name}.csv"))[0] == 200
+        async with asyncio.timeout(PATIENCE_S):
+            while await at_the_console(tmp_path, "track") != [f"ended: {name} is over"]:
+                await asyncio.sleep(0.05)
+    assert box.world.drives() == OFF
 
 
 @pytest.mark.parametrize("moment", ["1970-01-01T00:00:20Z", "19700101 00:00:20", "1999-12-31T23:59:59+02:00"])

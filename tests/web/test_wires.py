@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
-from collections.abc import Callable
-from contextlib import AbstractAsyncContextManager
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -18,11 +15,10 @@ from rotator.exchange.status import AxisStatus, Status
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap
 from rotator.monitor.transcript import Piece, Way, parse
-from rotator.web.wire_watch import MOST_WATCHERS
+from rotator.web.help_api import MOST_WATCHERS
 from rotator.web.wires import LONGEST_LINE, MOST_LINES, WireLog
 from tests.web.conftest import PATIENCE_S, Box
 
-Start = Callable[..., AbstractAsyncContextManager[Box]]
 NOON = datetime(2026, 11, 23, 12)
 
 
@@ -79,61 +75,42 @@ def test_a_crowd_of_lines_comes_in_parts_without_a_gap(tap: Tap, wires: WireLog)
     assert seen == [b"%d" % number for number in range(500)]
 
 
-def test_a_number_of_the_run_before_means_all(tap: Tap, wires: WireLog) -> None:
-    send(tap, b"C2\r")
-    assert pieces(wires.after(4711).lines) == [b"C2\r"]
-
-
 def test_a_long_line_is_cut(tap: Tap, wires: WireLog) -> None:
     send(tap, b"x" * 100_000)
     (line,) = wires.after(0).lines
     assert len(line) < LONGEST_LINE + 10
 
 
-def test_what_is_forgotten_costs_the_links_nothing(tap: Tap, wires: WireLog) -> None:
-    wires.forget()
-    wires.forget()
-    assert tap.listeners == []
-
-
-def test_a_paired_browser_sees_what_a_program_sends_and_comes_back_without_a_gap(
-    page_box: Start, tmp_path: Path
+async def test_a_paired_browser_sees_what_a_program_sends_and_comes_back_without_a_gap(
+    box: Box, tmp_path: Path
 ) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
-                await box.http.ws_connect(f"{box.url}/api/wires")
-            assert refused.value.status == 401
-            me = await box.pair()
-            with (tmp_path / "gs232").open("r+b", buffering=0) as program:
-                async with box.http.ws_connect(f"{box.url}/api/wires") as watch:
-                    assert (await told(watch))["lines"] == []
-                    program.write(b"C2\r")
-                    seen = await until(watch, "> C2")
-                program.write(b"B\r")
-                async with box.http.ws_connect(f"{box.url}/api/wires?after={seen['upto']}") as watch:
-                    again = await until(watch, "> B")
-                    assert "C2" not in str(again)
-                    assert again["missed"] == 0
-                    await box.post("revoke", {"number": me["number"]})
-                    while (message := await watch.receive(PATIENCE_S)).type is aiohttp.WSMsgType.TEXT:
-                        pass
-                    assert message.type in (aiohttp.WSMsgType.CLOSE, aiohttp.WSMsgType.CLOSED)
-
-    asyncio.run(main())
+    with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+        await box.http.ws_connect(f"{box.url}/api/wires")
+    assert refused.value.status == 401
+    me = await box.pair()
+    with (tmp_path / "gs232").open("r+b", buffering=0) as program:
+        async with box.http.ws_connect(f"{box.url}/api/wires") as watch:
+            assert (await told(watch))["lines"] == []
+            program.write(b"C2\r")
+            seen = await until(watch, "> C2")
+        program.write(b"B\r")
+        async with box.http.ws_connect(f"{box.url}/api/wires?after={seen['upto']}") as watch:
+            again = await until(watch, "> B")
+            assert "C2" not in str(again)
+            assert again["missed"] == 0
+            await box.post("revoke", {"number": me["number"]})
+            while (message := await watch.receive(PATIENCE_S)).type is aiohttp.WSMsgType.TEXT:
+                pass
+            assert message.type in (aiohttp.WSMsgType.CLOSE, aiohttp.WSMsgType.CLOSED)
 
 
-def test_so_many_watch_and_no_more(page_box: Start) -> None:
-    async def main() -> None:
-        async with page_box() as box:
-            await box.pair()
-            watching = [await box.http.ws_connect(f"{box.url}/api/wires") for _ in range(MOST_WATCHERS)]
-            status, answer = await box.get("wires")
-            assert (status, answer["error"]) == (409, f"{MOST_WATCHERS} are watching already")
-            for each in watching:
-                await each.close()
-
-    asyncio.run(main())
+async def test_so_many_watch_and_no_more(box: Box) -> None:
+    await box.pair()
+    watching = [await box.http.ws_connect(f"{box.url}/api/wires") for _ in range(MOST_WATCHERS)]
+    status, answer = await box.get("wires")
+    assert (status, answer["error"]) == (409, f"{MOST_WATCHERS} are watching already")
+    for each in watching:
+        await each.close()
 
 
 async def told(watch: aiohttp.ClientWebSocketResponse) -> dict[str, Any]:
