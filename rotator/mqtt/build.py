@@ -11,13 +11,12 @@ import socket
 from contextlib import suppress
 from pathlib import Path
 
-from rotator.config.links import address
 from rotator.config.model import Config
 from rotator.config.mqtt import EVERY_BOX, PREFIX, MqttTable
 from rotator.control.sky.mount import Mount
 from rotator.exchange.sources import MQTT, Source
 from rotator.mqtt.desk import Desk
-from rotator.mqtt.thread import Broker, MqttThread
+from rotator.mqtt.thread import MqttThread
 from rotator.mqtt.topics import Topics
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Tracking
@@ -33,23 +32,8 @@ def build_mqtt(config: Config, loop: ControlLoop, mount: Mount, tracking: Tracki
         return None
     source = Source(MQTT)
     client = Client(loop, mount, source)
-    return MqttThread(
-        Broker(
-            *address(table.broker),
-            table.user,
-            table.password,
-            table.tls,
-            table.ca_file,
-            table.cert_file,
-            table.key_file,
-        ),
-        topics_of(table),
-        Desk(Operating(client, tracking, source), table.may),
-        may=table.may,
-        announces=table.discovery,
-        status=lambda: as_object(loop.status),
-        left=client.left,
-    )
+    desk = Desk(Operating(client, tracking, source), table.may)
+    return MqttThread(table, topics_of(table), desk, status=lambda: as_object(loop.status), left=client.left)
 
 
 def topics_of(table: MqttTable) -> Topics:

@@ -12,9 +12,10 @@ import ssl
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from rotator.config.links import address
+from rotator.config.mqtt import MqttTable
 from rotator.links.wire import Wire, reason
 from rotator.mqtt.desk import LONGEST, Desk
 from rotator.mqtt.topics import OFFLINE, ONLINE, Topics, discovery
@@ -37,53 +38,26 @@ NO_LIBRARY = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Broker:
-    host: str
-    port: int
-    user: str | None
-    password: str | None
-    tls: bool
-    ca_file: str | None = None
-    cert_file: str | None = None
-    key_file: str | None = None
-
-    def context(self) -> ssl.SSLContext:
-        """Raises OSError with the name of the key."""
-        try:
-            key = "ca_file"
-            made = ssl.create_default_context(cafile=self.ca_file)
-            if self.cert_file is not None:
-                key = "cert_file, key_file"
-                made.load_cert_chain(self.cert_file, self.key_file, password="")  # else it would ask the terminal
-        except OSError as fault:
-            raise OSError(f"{key}: {_why(fault)}") from fault
-        return made
-
-
 class MqttThread:
-    """`status` gives the status to send, as an object. `desk` carries out messages. `left`: called when the connection
-    has ended."""
+    """`table` names a broker. `status` gives the status to send, as an object. `desk` carries out messages. `left`:
+    called when the connection has ended."""
 
     def __init__(
         self,
-        broker: Broker,
+        table: MqttTable,
         topics: Topics,
         desk: Desk,
         *,
-        may: str,
-        announces: bool,
         status: Callable[[], Any],
         left: Callable[[], None],
     ) -> None:
-        self._broker = broker
+        self._table = table
+        self._host, self._port = address(table.broker or "")
         self._topics = topics
         self._desk = desk
-        self._may = may
-        self._announces = announces
         self._status = status
         self._left = left
-        self.wire = Wire(MQTT_THREAD, MQTT_THREAD, f"{broker.host}:{broker.port}")
+        self.wire = Wire(MQTT_THREAD, MQTT_THREAD, f"{self._host}:{self._port}")
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run, name=MQTT_THREAD, daemon=True)
         self._let_in = False
@@ -135,7 +109,7 @@ class MqttThread:
         """From the login to the end of the connection. Raises OSError, and what the library raises."""
         client = self._new_client()
         self._let_in, self._refused = False, ""
-        client.connect(self._broker.host, self._broker.port, keepalive=KEEP_ALIVE_S)
+        client.connect(self._host, self._port, keepalive=KEEP_ALIVE_S)
         begun_s = sent_s = time.monotonic()
         sent = ""
         while not self._stopping.is_set():
@@ -181,9 +155,9 @@ class MqttThread:
 
         client = BoundedClient()
         client.connect_timeout = CONNECT_S
-        client.username_pw_set(self._broker.user, self._broker.password)
-        if self._broker.tls:
-            client.tls_set_context(self._broker.context())
+        client.username_pw_set(self._table.user, self._table.password)
+        if self._table.tls:
+            client.tls_set_context(_context(self._table))
         client.will_set(self._topics.availability, OFFLINE, retain=True)
         client.on_connect = self._on_connect
         client.on_message = self._on_message
@@ -200,13 +174,26 @@ class MqttThread:
             if topic not in self._kept_too_long:
                 client.subscribe(topic, qos=0)
         client.publish(self._topics.availability, ONLINE, retain=True)
-        for topic, text in discovery(self._topics, self._may) if self._announces else ():
+        for topic, text in discovery(self._topics, self._table.may) if self._table.discovery else ():
             client.publish(topic, text, retain=True)
 
     def _on_message(self, client: Any, _data: object, message: Any) -> None:
         self.wire.came(message.payload[:200])
         answer = self._desk.do(self._topics.method(message.topic), message.payload, kept=message.retain)
         client.publish(self._topics.answer, json.dumps(answer, ensure_ascii=False))
+
+
+def _context(table: MqttTable) -> ssl.SSLContext:
+    """Raises OSError with the name of the key."""
+    try:
+        key = "ca_file"
+        made = ssl.create_default_context(cafile=table.ca_file)
+        if table.cert_file is not None:
+            key = "cert_file, key_file"
+            made.load_cert_chain(table.cert_file, table.key_file, password="")  # else it would ask the terminal
+    except OSError as fault:
+        raise OSError(f"{key}: {_why(fault)}") from fault
+    return made
 
 
 def _why(fault: Exception) -> str:

@@ -81,15 +81,14 @@ class Api:
             *self._reads(),
             *PairingApi(self._entrance, self._parts.pairings, self._parts.utc).routes(),
             *(openapi.order(each, self._order(each)) for each in METHODS),
-            tables.route(self._entrance, self._as, self._parts.scene.with_names),
+            tables.route(self._as, self._parts.scene.with_names),
             *(route for group in self._parts.groups for route in group(self._entrance)),
             get("/api/openapi.json", self._describe, itself, access=FREE),
         ]
-        self._entrance.most_body = {route.path: route.most_body for route in routes}
         app = web.Application(middlewares=[self._entrance.guarded], client_max_size=MOST_BODY)
         app.on_response_prepare.append(add_headers)
         for route in routes:
-            app.router.add_route(route.method, route.path, route.serve)
+            app.router.add_route(route.method, route.path, self._entrance.guarding(route))
         for path in ("/api", "/api/"):
             app.router.add_get(path, self._api_page)
         app.router.add_route("GET", "/{path:.*}", self._asset)
@@ -110,34 +109,30 @@ class Api:
             get("/api/box", self._box, station),
             get("/api/past", self._read(parts.scene.past.rows), past),
             get("/api/path", self._read(parts.scene.path), path),
+            # It names people's browsers and machines.
             get("/api/log", self._log, log, access=PAIRED),
             live("/api/live", self._serve_live, pictures, access=READING, query={}, more={}),
         )
 
     def _read(self, make: Callable[[], Mapping[str, object]]) -> Handler:
-        async def answer(request: web.Request) -> web.StreamResponse:
-            self._entrance.may_read(request)
+        async def answer(_request: web.Request) -> web.StreamResponse:
             return web.json_response(make())
 
         return answer
 
     async def _box(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.may_read(request)
         return web.json_response(self._box_for(self._entrance.who(request)))
 
     def _box_for(self, who: Paired | None) -> BoxFacts:
         return box(self._parts.station, self._parts.status(), stranger=who is None)
 
-    async def _log(self, request: web.Request) -> web.StreamResponse:
-        # The answer names people's browsers and machines.
-        self._entrance.must_be_paired(request)
+    async def _log(self, _request: web.Request) -> web.StreamResponse:
         with_names = self._parts.scene.with_names
         return web.json_response(
             {"lines": [{**line, "text": with_names(line["text"])} for line in self._parts.lines.latest_first()]}
         )
 
     async def _serve_live(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.may_read(request)
         socket = web.WebSocketResponse(max_msg_size=LONGEST_SIGN, compress=False, heartbeat=10.0, timeout=1.0)
         await socket.prepare(request)
         self._entrance.lasts(request)
@@ -206,7 +201,7 @@ class Api:
 
     def _order(self, method: Method) -> Handler:
         async def answer(request: web.Request) -> web.StreamResponse:
-            who = self._entrance.who(request) if method.free else self._entrance.must_be_paired(request)
+            who = self._entrance.who(request)
             # A stop counts with any body.
             try:
                 command = method.command({} if method.free else await values_of(request))

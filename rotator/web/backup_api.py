@@ -21,7 +21,7 @@ from rotator.config import toml_text
 from rotator.config.model import Config
 from rotator.protocols.methods import WrongValuesError
 from rotator.web.box_file import Begun, BoxFile
-from rotator.web.entrance import Entrance, RefusedError, bytes_of, download, error
+from rotator.web.entrance import RefusedError, bytes_of, download, error, paired
 from rotator.web.route import PAIRED, Route, get, post, refusals
 from rotator.web.schema import ZIP, in_address, the
 
@@ -42,8 +42,7 @@ class _Look(TypedDict):
 class BackupApi:
     """`config`: the running configuration. `utc` gives seconds since 1970."""
 
-    def __init__(self, entrance: Entrance, file: BoxFile, config: Config, utc: Callable[[], float]) -> None:
-        self._entrance = entrance
+    def __init__(self, file: BoxFile, config: Config, utc: Callable[[], float]) -> None:
         self._file = file
         self._config = config
         self._utc = utc
@@ -61,8 +60,7 @@ class BackupApi:
             post("/api/restore", self._restore, restore, ZIP, answer=Begun, query=stop, **takes),
         )
 
-    async def _save(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
+    async def _save(self, _request: web.Request) -> web.StreamResponse:
         path = self._file.path
         try:
             packed = await asyncio.to_thread(pack, path, self._config, self._utc())
@@ -71,7 +69,6 @@ class BackupApi:
         return download(packed, "rotator-backup.zip")
 
     async def _look(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
         path, data = self._file.path, await bytes_of(request, MOST_BYTES)
         try:
             return web.json_response(await asyncio.to_thread(_shown, path, data))
@@ -79,7 +76,7 @@ class BackupApi:
             return error(422, str(reason))
 
     async def _restore(self, request: web.Request) -> web.StreamResponse:
-        who = self._entrance.must_be_paired(request)
+        who = paired(request)
         path, data = self._file.path, await bytes_of(request, MOST_BYTES)
         stop = request.query.get("stop", "false")
         if stop not in ("true", "false"):

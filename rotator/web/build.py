@@ -144,11 +144,8 @@ def build_page(
             reading_open=config.page.reading == "open",
             utc=time.time,
             groups=(
-                plan.routes,
-                elements.routes,
-                flown.routes,
-                lambda entrance: SettingsApi(entrance, file).routes(),
-                lambda entrance: SettingUpApi(entrance, file, calibration).routes(),
+                lambda _entrance: (*plan.routes(), *elements.routes(), *flown.routes()),
+                lambda _entrance: (*SettingsApi(file).routes(), *SettingUpApi(file, calibration).routes()),
                 *help_groups(config, file, place, pairings=pairings, lines=lines, wires=wire_log),
             ),
             works=(flown.run,),

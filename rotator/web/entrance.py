@@ -5,7 +5,6 @@ Knows headers, cookies and tokens, and the answers of a refusal. Does not know w
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 from aiohttp import web
@@ -19,10 +18,11 @@ from rotator.web.connections import Connections
 from rotator.web.doors import Doors
 from rotator.web.pairing import LASTS_S, Pairings
 from rotator.web.pairing_code import NotPairedError
-from rotator.web.route import MOST_BODY, Handler
+from rotator.web.route import MOST_BODY, Handler, Route
 from rotator.web.schema import ZIP
 
 COOKIE = "rotator"
+_SENDER = "sender"
 _TOO_LONG = "this request has a body of at most {} bytes"
 
 
@@ -31,15 +31,13 @@ class RefusedError(Exception):
 
 
 class Entrance:
-    """`reading_open`: reading without pairing is allowed. `most_body`: bytes by path, for longer requests; 0: the body
-    is not read, and may have any length."""
+    """`reading_open`: reading without pairing is allowed."""
 
     def __init__(self, doors: Doors, pairings: Pairings, connections: Connections, *, reading_open: bool) -> None:
         self._doors = doors
         self._pairings = pairings
         self._connections = connections
         self.reading_open = reading_open
-        self.most_body: Mapping[str, int] = {}
 
     @web.middleware
     async def guarded(self, request: web.Request, handler: Handler) -> web.StreamResponse:
@@ -47,9 +45,6 @@ class Entrance:
         try:
             if refused := self._refused(request):
                 return error(403, refused)
-            most = self.most_body.get(request.path, MOST_BODY)
-            if most and request.content_length is not None and request.content_length > most:
-                return error(413, _TOO_LONG.format(most))
             return await handler(request)
         except web.HTTPMethodNotAllowed:
             return error(405, f"there is no {request.method} {request.path[:60]!a}: /api/ lists all there is")
@@ -84,15 +79,24 @@ class Entrance:
         token = bearer.strip() if scheme.lower() == "bearer" else request.cookies.get(COOKIE, "")
         return self._pairings.known(token) if token else None
 
-    def must_be_paired(self, request: web.Request) -> Paired:
-        who = self.who(request)
-        if who is None:
-            raise web.HTTPUnauthorized(reason="not paired: only a paired browser or program may do that")
-        return who
+    def guarding(self, route: Route) -> Handler:
+        """The handler of a route, for those who may ask for it as it describes itself, and for no longer bodies.
 
-    def may_read(self, request: web.Request) -> None:
-        if not self.reading_open:
-            self.must_be_paired(request)
+        Before the first byte is read: a stranger's file must not take memory.
+        """
+        security = route.described["security"]
+        open_to_all = not security or (self.reading_open and {} in security)
+
+        async def serve(request: web.Request) -> web.StreamResponse:
+            if route.most_body and (request.content_length or 0) > route.most_body:
+                return error(413, _TOO_LONG.format(route.most_body))
+            if not open_to_all:
+                request[_SENDER] = self.who(request)
+                if request[_SENDER] is None:
+                    raise web.HTTPUnauthorized(reason="not paired: only a paired browser or program may do that")
+            return await route.serve(request)
+
+        return serve
 
     def lasts(self, request: web.Request) -> None:
         """This connection has become a WebSocket, and has no time limit now."""
@@ -103,6 +107,12 @@ class Entrance:
         token = request.cookies.get(COOKIE, "")
         if token and self._pairings.known(token):
             set_cookie(answer, token)
+
+
+def paired(request: web.Request) -> Paired:
+    """The browser or program that has asked for a route with `PAIRED`."""
+    who: Paired = request[_SENDER]
+    return who
 
 
 def set_cookie(answer: web.Response, token: str) -> None:

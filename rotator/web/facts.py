@@ -28,15 +28,8 @@ class Station:
     """Latitude and longitude; None: not known."""
 
 
-class _Range(TypedDict):
-    min_deg: float
-    max_deg: float
-
-
-class _Sector(TypedDict):
-    name: str
-    azimuth: Pair
-    elevation: Pair
+_Range = TypedDict("_Range", {"min_deg": float, "max_deg": float})
+_Sector = TypedDict("_Sector", {"name": str, "azimuth": Pair, "elevation": Pair})
 
 
 class BoxFacts(TypedDict):

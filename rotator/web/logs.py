@@ -21,14 +21,8 @@ Rank = Literal["note", "warning", "error"]
 _RANKS: dict[str, Rank] = {"D": "note", "I": "note", "W": "warning", "E": "error", "C": "error"}
 
 
-class LogLine(TypedDict):
-    at_s: Annotated[float, the("seconds since 1970")]
-    rank: Rank
-    text: str
-
-
-class LatestLines(TypedDict):
-    lines: list[LogLine]
+LogLine = TypedDict("LogLine", {"at_s": Annotated[float, the("seconds since 1970")], "rank": Rank, "text": str})
+LatestLines = TypedDict("LatestLines", {"lines": list[LogLine]})
 
 
 class LogLines(logging.Handler):

@@ -40,8 +40,7 @@ SINCE = {
 _OBJECTS = {"azimuth": "axis", "elevation": "axis", "tracks": "tracks", "fault": "fault"}
 
 
-class _Error(TypedDict):
-    error: Annotated[str, the("why, in a sentence")]
+_Error = TypedDict("_Error", {"error": Annotated[str, the("why, in a sentence")]})
 
 
 def description(routes: Sequence[Route]) -> dict[str, Any]:

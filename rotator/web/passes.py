@@ -47,8 +47,7 @@ class Pass(TypedDict):
     plan: Annotated[_Planned | None, the("null: not in the plan")]
 
 
-class ManyPasses(TypedDict):
-    passes: list[Pass]
+ManyPasses = TypedDict("ManyPasses", {"passes": list[Pass]})
 
 
 def command(path: Path) -> tuple[str, ...]:

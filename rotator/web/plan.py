@@ -23,7 +23,7 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.store.priorities import Priorities
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.ranking import ranked
-from rotator.web.entrance import Entrance, computed, error, values_of
+from rotator.web.entrance import computed, error, values_of
 from rotator.web.passes import ManyPasses, Pass, Passes
 from rotator.web.route import COMPUTING, Route, get, post
 from rotator.web.schema import Body, Pair, Sent, the
@@ -53,8 +53,7 @@ class _Followed(TypedDict):
     fault: Annotated[str, the("why it is not known; empty: it is")]
 
 
-class _FollowedList(TypedDict):
-    followed: list[_Followed]
+_FollowedList = TypedDict("_FollowedList", {"followed": list[_Followed]})
 
 
 class _Order(Sent):
@@ -86,21 +85,17 @@ class Plan:
         self._next: tuple[str, Fields] = ("", {})
         """The next pass as last sent, by its name and rise."""
 
-    def routes(self, entrance: Entrance) -> Sequence[Route]:
-        async def passes(request: web.Request) -> web.StreamResponse:
-            entrance.may_read(request)
+    def routes(self) -> Sequence[Route]:
+        async def passes(_request: web.Request) -> web.StreamResponse:
             return computed(self._passes.answer())
 
-        async def upcoming(request: web.Request) -> web.StreamResponse:
-            entrance.may_read(request)
+        async def upcoming(_request: web.Request) -> web.StreamResponse:
             return computed(self.upcoming())
 
-        async def followed(request: web.Request) -> web.StreamResponse:
-            entrance.may_read(request)
+        async def followed(_request: web.Request) -> web.StreamResponse:
             return web.json_response({"followed": self.followed()})
 
         async def order(request: web.Request) -> web.StreamResponse:
-            entrance.must_be_paired(request)
             names = _ORDER.read(await values_of(request, LONGEST_ORDER))["order"]
             change = self.as_written if names is None else partial(self.reorder, names)
             reason = await asyncio.to_thread(change)

@@ -44,8 +44,9 @@ class Route:
     path: str
     serve: Handler
     described: Schema
+    """Its `security` is what the entrance asks for."""
     most_body: int = MOST_BODY
-    """Bytes."""
+    """Bytes; 0: the body is not read, and may have any length."""
 
 
 def get(
@@ -122,8 +123,7 @@ def refusals(*numbers: int) -> Schema:
     return {str(number): {"$ref": f"#/components/responses/{number}"} for number in numbers}
 
 
-class _Computing(TypedDict):
-    computing: Literal[True]
+_Computing = TypedDict("_Computing", {"computing": Literal[True]})
 
 
 COMPUTING: Schema = {

@@ -47,11 +47,7 @@ class FlightPath:
     points: Annotated[Sequence[Pair], the("azimuth and elevation")]
 
 
-class _Lamps(TypedDict):
-    cw: Lamp
-    ccw: Lamp
-    up: Lamp
-    down: Lamp
+_Lamps = TypedDict("_Lamps", {"cw": Lamp, "ccw": Lamp, "up": Lamp, "down": Lamp})
 
 
 class _Link(TypedDict):

@@ -53,8 +53,7 @@ def in_address(meaning: str, example: str) -> Schema:
 Pair = Annotated[Sequence[float], Field(min_length=2, max_length=2)]
 
 
-class Ok(TypedDict):
-    ok: Literal[True]
+Ok = TypedDict("Ok", {"ok": Literal[True]})
 
 
 class Sent(TypedDict):

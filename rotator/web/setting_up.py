@@ -24,7 +24,7 @@ from rotator.protocols.reference.programs import PROGRAMS
 from rotator.setup.answered import Asked, as_they_stand, asked
 from rotator.setup.machine import this_machine
 from rotator.web.box_file import Begun, BoxFile, MayStop
-from rotator.web.entrance import Entrance, RefusedError, values_of
+from rotator.web.entrance import RefusedError, paired, values_of
 from rotator.web.route import PAIRED, Route, get, post, refusals
 from rotator.web.schema import Body, Sent, the
 
@@ -36,9 +36,7 @@ _LINK = re.compile(r"\[([^\[\]]*)\]\([^()]*\)")
 Answers = Annotated[dict[str, str], the("by the names in /api/setup/questions")]
 
 
-class _Choice(TypedDict):
-    answer: str
-    words: str
+_Choice = TypedDict("_Choice", {"answer": str, "words": str})
 
 
 class _Question(TypedDict):
@@ -51,19 +49,9 @@ class _Question(TypedDict):
     mistake: Annotated[str, the("why it is no answer; empty: it is")]
 
 
-class _Questions(TypedDict):
-    questions: list[_Question]
-
-
-class _Pin(TypedDict):
-    gpio: int
-    key: str
-
-
-class _Chip(TypedDict):
-    bus: int
-    address: int
-    name: str
+_Questions = TypedDict("_Questions", {"questions": list[_Question]})
+_Pin = TypedDict("_Pin", {"gpio": int, "key": str})
+_Chip = TypedDict("_Chip", {"bus": int, "address": int, "name": str})
 
 
 class _Wiring(TypedDict):
@@ -73,15 +61,8 @@ class _Wiring(TypedDict):
     active: Annotated[str | None, the("the level that closes a relay")]
 
 
-class _Program(TypedDict):
-    name: str
-    protocols: Sequence[str]
-    where: str
-    settings: str
-
-
-class _Programs(TypedDict):
-    programs: list[_Program]
+_Program = TypedDict("_Program", {"name": str, "protocols": Sequence[str], "where": str, "settings": str})
+_Programs = TypedDict("_Programs", {"programs": list[_Program]})
 
 
 class _Guide(TypedDict):
@@ -114,8 +95,7 @@ _PRESS = Body((_Press, {"keys": "r"}), hint="the keys of `rotator calibrate`")
 class SettingUpApi:
     """`calibration`: the running calibration; None: a normal run."""
 
-    def __init__(self, entrance: Entrance, file: BoxFile, calibration: PageCalibration | None) -> None:
-        self._entrance = entrance
+    def __init__(self, file: BoxFile, calibration: PageCalibration | None) -> None:
         self._file = file
         self._calibration = calibration
 
@@ -134,15 +114,13 @@ class SettingUpApi:
         )
 
     async def _questions(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
         answers = _ANSWERED.read(await values_of(request))["answers"]
         config = (await self._file.settings()).config
         machine = await asyncio.to_thread(this_machine)
         found = asked({**(as_they_stand(config) if config else {}), **answers}, machine)
         return web.json_response({"questions": [_shown(each) for each in found]})
 
-    async def _wiring(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
+    async def _wiring(self, _request: web.Request) -> web.StreamResponse:
         config = await self._config()
         wiring: _Wiring = {
             "kind": config.rotor.type,
@@ -152,8 +130,7 @@ class SettingUpApi:
         }
         return web.json_response(wiring)
 
-    async def _programs(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
+    async def _programs(self, _request: web.Request) -> web.StreamResponse:
         programs: list[_Program] = [
             {
                 "name": each.name,
@@ -166,7 +143,7 @@ class SettingUpApi:
         return web.json_response({"programs": programs})
 
     async def _calibrate(self, request: web.Request) -> web.StreamResponse:
-        who = self._entrance.must_be_paired(request)
+        who = paired(request)
         sent = _CALIBRATE.read(await values_of(request))
         axis, file = Axis(sent["axis"]), self._file.path
         try:
@@ -177,14 +154,12 @@ class SettingUpApi:
         log.warning("page: %s calibrates the %s of %s: the box starts anew for that", who.name, axis.value, file)
         return web.json_response(self._file.begin_anew(axis))
 
-    async def _guide(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
+    async def _guide(self, _request: web.Request) -> web.StreamResponse:
         if self._calibration is None:
             return web.json_response({"axis": None, "lines": self._file.anew.calibration_lines})
         return web.json_response(self._calibration.shown())
 
     async def _press(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
         keys = _PRESS.read(await values_of(request))["keys"]
         if self._calibration is None:
             raise RefusedError("no axis is being calibrated now")

@@ -23,7 +23,7 @@ from rotator.setup.answered import fresh
 from rotator.setup.network import open_to
 from rotator.setup.questions import network
 from rotator.web.box_file import STOP, Begun, BoxFile, MayStop
-from rotator.web.entrance import Entrance, computed, values_of
+from rotator.web.entrance import computed, paired, values_of
 from rotator.web.route import COMPUTING, PAIRED, Route, answered, get, post, refusals
 from rotator.web.schema import Body, Sent, the
 from rotator.web.setting_up import Answers
@@ -72,9 +72,7 @@ class _Mistake(TypedDict):
     places: Annotated[Sequence[Sequence[str | int]], the("the keys that it is about")]
 
 
-class _Shown(TypedDict):
-    diff: Annotated[list[str], the("the lines that change")]
-    mistakes: list[_Mistake]
+_Shown = TypedDict("_Shown", {"diff": Annotated[list[str], the("the lines that change")], "mistakes": list[_Mistake]})
 
 
 class _Wrong(_Shown):
@@ -111,13 +109,11 @@ class _Table(TypedDict):
     keys: list[_Key]
 
 
-class _Tables(TypedDict):
-    tables: list[_Table]
+_Tables = TypedDict("_Tables", {"tables": list[_Table]})
 
 
 class SettingsApi:
-    def __init__(self, entrance: Entrance, file: BoxFile, today: Callable[[], date] = date.today) -> None:
-        self._entrance = entrance
+    def __init__(self, file: BoxFile, today: Callable[[], date] = date.today) -> None:
         self._file = file
         self._today = today
         self._form: asyncio.Task[list[dict[str, Any]]] | None = None
@@ -141,8 +137,7 @@ class SettingsApi:
             post("/api/restart", self._restart, restart, STOP, answer=Begun),
         )
 
-    async def _read(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
+    async def _read(self, _request: web.Request) -> web.StreamResponse:
         found = await self._file.settings()
         settings: _Settings = {
             "file": str(self._file.file or ""),
@@ -154,20 +149,18 @@ class SettingsApi:
         }
         return web.json_response(settings)
 
-    async def _forms(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
+    async def _forms(self, _request: web.Request) -> web.StreamResponse:
         # Takes seconds on a small Pi.
         self._form = self._form or asyncio.create_task(asyncio.to_thread(form.tables), name="page: form")
         await asyncio.wait([self._form], timeout=ANSWERS_S)
         return computed({"tables": self._form.result()} if self._form.done() else None)
 
     async def _check(self, request: web.Request) -> web.StreamResponse:
-        self._entrance.must_be_paired(request)
         proposal, _ = await self._proposal(request)
         return web.json_response(_shown(proposal))
 
     async def _write(self, request: web.Request) -> web.StreamResponse:
-        who = self._entrance.must_be_paired(request)
+        who = paired(request)
         proposal, sent = await self._proposal(request)
         if proposal.mistakes:
             return web.json_response({"error": proposal.mistakes[0].text, **_shown(proposal)}, status=422)
@@ -177,14 +170,14 @@ class SettingsApi:
         return web.json_response(self._file.begin_anew())
 
     async def _make(self, request: web.Request) -> web.StreamResponse:
-        who = self._entrance.must_be_paired(request)
+        who = paired(request)
         self._file.may_stop(STOP.read(await values_of(request)))
         file = await self._file.make()
         log.warning("page: %s gives the box a file, %s: it starts anew with it", who.name, file)
         return web.json_response(self._file.begin_anew())
 
     async def _restart(self, request: web.Request) -> web.StreamResponse:
-        who = self._entrance.must_be_paired(request)
+        who = paired(request)
         self._file.may_stop(STOP.read(await values_of(request)))
         log.warning("page: %s has the box start anew", who.name)
         return web.json_response(self._file.begin_anew())

@@ -15,7 +15,7 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.protocols.operating import Operating
 from rotator.protocols.table_text import TableError, no_text, read_table
 from rotator.store.paired import Paired
-from rotator.web.entrance import Entrance, bytes_of, error
+from rotator.web.entrance import bytes_of, error, paired
 from rotator.web.route import Route, post
 from rotator.web.schema import TABLE, in_address
 
@@ -24,12 +24,10 @@ LONGEST_NAME = 200
 SHOWN_NAME = 40
 
 
-def route(entrance: Entrance, operating: Callable[[Paired], Operating], in_words: Callable[[str], str]) -> Route:
+def route(operating: Callable[[Paired], Operating], in_words: Callable[[str], str]) -> Route:
     """`operating`: a paired browser's commands. `in_words`: a refusal in words for the page."""
 
     async def track(request: web.Request) -> web.StreamResponse:
-        # Before the first byte is read: a stranger's table must not take memory.
-        who = entrance.must_be_paired(request)
         file = request.query.get("name", "")
         if not 0 < len(file) <= LONGEST_NAME or not file.isprintable():
             raise WrongValuesError("send the table as the body of /api/track-table?name=FILE")
@@ -41,7 +39,7 @@ def route(entrance: Entrance, operating: Callable[[Paired], Operating], in_words
             return error(400, no_text(file))
         except TableError as mistake:
             return error(400, str(mistake))
-        refused = operating(who).program(table)
+        refused = operating(paired(request)).program(table)
         return error(409, in_words(refused)) if refused else web.json_response({"ok": True})
 
     summary = "Track a timed table, t,az,el: t in seconds from now, or in UTC"
