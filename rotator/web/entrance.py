@@ -22,7 +22,7 @@ from rotator.web.route import MOST_BODY, Handler, Route
 from rotator.web.schema import ZIP
 
 COOKIE = "rotator"
-_SENDER = "sender"
+_SENDER = web.RequestKey("sender", Paired)
 _TOO_LONG = "this request has a body of at most {} bytes"
 
 
@@ -91,9 +91,10 @@ class Entrance:
             if route.most_body and (request.content_length or 0) > route.most_body:
                 return error(413, _TOO_LONG.format(route.most_body))
             if not open_to_all:
-                request[_SENDER] = self.who(request)
-                if request[_SENDER] is None:
+                who = self.who(request)
+                if who is None:
                     raise web.HTTPUnauthorized(reason="not paired: only a paired browser or program may do that")
+                request[_SENDER] = who
             return await route.serve(request)
 
         return serve
@@ -111,8 +112,7 @@ class Entrance:
 
 def paired(request: web.Request) -> Paired:
     """The browser or program that has asked for a route with `PAIRED`."""
-    who: Paired = request[_SENDER]
-    return who
+    return request[_SENDER]
 
 
 def set_cookie(answer: web.Response, token: str) -> None:

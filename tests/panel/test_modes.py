@@ -1,4 +1,4 @@
-"""The front panel as its builder describes it: what each switch does in each mode, and what it never does."""
+"""The front panel as its builder describes it: what each switch does in each mode and never does, and what is lit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import pytest
 
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Mode, Nudge, Release, SetMode, Stop
-from rotator.panel.panel import Panel, PanelSettings
+from rotator.exchange.status import AxisStatus
+from rotator.panel.panel import LAMPS, Panel, PanelSettings
 from tests.panel.person import (
     AUTO,
     AZ,
@@ -218,3 +219,24 @@ def test_an_axis_without_calibration_gets_two_seconds_a_press() -> None:
     assert set(jogs) == {Jog(AZ, PLUS, 0.3)}
     assert 1.95 <= len(jogs) * LOOK_S <= 2.05
     assert last == Stop((AZ,))
+
+
+def test_lamps_of_motors_data_and_pulses() -> None:
+    person = at_the_panel(AUTO)
+    person.status = replace(STILL, azimuth=replace(STILL.azimuth, drive=MINUS, moving=True))
+    person.sees(data=True, pulses=frozenset({EL}))
+    assert person.lit() == {"auto", "motor", "data", "elevation_pulse"}
+    person.waits(0.2, data=False)
+    assert person.lit() == {"auto", "motor", "elevation_pulse"}
+    assert set(person.act.lamps) == set(LAMPS)
+
+
+def test_meters_show_where_the_axes_stand_and_zero_where_the_angle_is_unknown() -> None:
+    person = at_the_panel(AUTO)
+    person.status = replace(
+        STILL,
+        azimuth=AxisStatus(0.0, 450.0, angle_deg=455.0),
+        elevation=AxisStatus(0.0, 180.0),
+    )
+    person.sees()
+    assert person.act.meters == {AZ: 1.0, EL: 0.0}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from typing import Any
 
 import pytest
 
@@ -13,7 +14,7 @@ from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, AngleSource, Axis
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
-from rotator.config.model import Config
+from rotator.config.load import parse
 from rotator.exchange.sources import Source
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.loop import ControlLoop
@@ -27,15 +28,17 @@ LOOK_S = 3.0
 
 
 class Rig:
-    """A station with its guard as an alarm of the clock, and a control loop that is cycled by hand."""
+    """A station with its guard as an alarm of the clock, and a control loop that is cycled by hand.
 
-    def __init__(self) -> None:
-        self.clock = SimClock()
-        self.config = Config()
+    `text`: of its file. `more`: of the control loop.
+    """
+
+    def __init__(self, text: str = "", clock: SimClock | None = None, **more: Any) -> None:
+        self.clock = clock or SimClock()
+        self.config = parse(text, "test")
         self.station = Station(self.config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        assert isinstance(self.station.world, SimRelayPotRotor)
-        self.world = self.station.world
-        self.loop = self.loop_with(self.station.rotor.sensors)
+        self.world: Any = self.station.world
+        self.loop = ControlLoop(build_controller(self.config), self.station.rotor, self.clock, PERIOD_S, **more)
 
     def loop_with(self, sensors: Mapping[Axis, AngleSensor], period_s: float = PERIOD_S) -> ControlLoop:
         assert isinstance(self.station.rotor, RelayRotor)
@@ -46,8 +49,12 @@ class Rig:
         end_s = self.clock() + seconds
         while self.clock() < end_s:
             cycle_s = self.clock()
+            self.before_cycle()
             (loop or self.loop).cycle()
             self.clock.sleep_until(cycle_s + PERIOD_S)
+
+    def before_cycle(self) -> None:
+        """For what else happens at each cycle."""
 
 
 class Hangs:

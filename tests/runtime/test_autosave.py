@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
+import threading
 from pathlib import Path
 
 import pytest
@@ -16,7 +18,7 @@ from rotator.config.load import load
 from rotator.exchange.motor import Motor
 from rotator.exchange.orders import Aim, Calibrate, Order
 from rotator.exchange.sources import Source
-from rotator.runtime.autosave import Autosave
+from rotator.runtime.autosave import Autosave, aside
 from rotator.runtime.loop import ControlLoop
 from rotator.store.hanging import writes
 from tests.refusing import hanging, wait_until
@@ -218,3 +220,41 @@ def test_a_file_that_was_emptied_or_spoilt_under_the_box_is_not_replaced_by_a_ca
     path.write_text(whole)
     box.autosave.keep_calibrations()
     assert load(path).azimuth.calibration is not None
+
+
+def test_the_event_loop_goes_on_while_the_job_works() -> None:
+    free = threading.Event()
+
+    async def both() -> None:
+        waits = asyncio.create_task(aside(free.wait, "job"))
+        await asyncio.sleep(0)
+        assert not waits.done()
+        free.set()
+        await waits
+
+    asyncio.run(both())
+
+
+def test_what_the_job_raises_is_raised() -> None:
+    def fails() -> None:
+        raise OSError("full")
+
+    with pytest.raises(OSError, match="full"):
+        asyncio.run(aside(fails, "job"))
+
+
+def test_a_job_that_hangs_holds_up_no_end() -> None:
+    free = threading.Event()
+
+    async def cancelled() -> None:
+        waits = asyncio.create_task(aside(free.wait, "hangs"))
+        await asyncio.sleep(0)
+        waits.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await waits
+
+    asyncio.run(cancelled())
+    (left,) = [thread for thread in threading.enumerate() if thread.name == "hangs"]
+    assert left.daemon
+    free.set()
+    left.join()

@@ -8,11 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.clock import SimClock
 from hw.ports import Axis
-from rotator.assembly.settings import build_controller
-from rotator.assembly.station import Station
-from rotator.config.model import Config
 from rotator.config.writing import replace
 from rotator.exchange.motor import ALL_OPEN
 from rotator.exchange.orders import Aim, Release, Stop
@@ -21,7 +17,6 @@ from rotator.exchange.status import Latch
 from rotator.protocols.console_session import report
 from rotator.runtime.card_watch import CardWatch
 from rotator.runtime.keeping import Keeping
-from rotator.runtime.loop import ControlLoop
 from rotator.runtime.state_thread import StateThread
 from rotator.store.hanging import HANGS_S, writes
 from rotator.store.latch import KeptLatch
@@ -29,9 +24,9 @@ from rotator.store.relays import RELAYS
 from rotator.store.state import State
 from rotator.views.lcd import rows
 from tests.refusing import hanging, refuse, wait_until
+from tests.runtime.loop_rig import LINK, LOOK_S, PERIOD_S, Rig
 
-CYCLE_S = 0.05
-LINK, PERSON = Source("gs232b", 1), Source("console", 1)
+PERSON = Source("console", 1)
 FILES: dict[str, Callable[[Path], object]] = {
     "state": lambda path: State(path).keep(RELAYS, {Axis.AZIMUTH: ALL_OPEN}),
     "configuration": lambda path: _replaced(path.with_name("other")),
@@ -43,19 +38,10 @@ def _replaced(path: Path) -> None:
         replace(path, "", "")
 
 
-class Box:
+class Box(Rig):
     def __init__(self, card: CardWatch | None = None, keeping: Keeping | None = None) -> None:
-        self.clock, config = SimClock(), Config()
-        station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        self.loop = ControlLoop(
-            build_controller(config), station.rotor, self.clock, CYCLE_S, card=card, keeping=keeping
-        )
-        self.run(3.0)
-
-    def run(self, seconds: float) -> None:
-        for _ in range(round(seconds / CYCLE_S)):
-            self.clock.sleep(CYCLE_S)
-            self.loop.cycle()
+        super().__init__(card=card, keeping=keeping)
+        self.run(LOOK_S)
 
     @property
     def displayed(self) -> set[str]:
@@ -78,7 +64,7 @@ def test_a_write_that_hangs_is_said_after_seconds_for_as_long_as_it_lasts(tmp_pa
         box.run(0.2 * HANGS_S)
         assert hung.name in " ".join(report(box.loop.status))
         assert "CARD HANGS" in box.displayed
-    box.run(CYCLE_S)
+    box.run(PERIOD_S)
     assert box.loop.status.unkept is None
 
 
@@ -87,7 +73,7 @@ def test_a_refusal_is_said_at_once(tmp_path: Path) -> None:
     refuse(state.path)
     box = Box(CardWatch(lambda: ["", state.trouble]))
     state.keep(RELAYS, {Axis.AZIMUTH: ALL_OPEN})
-    box.run(CYCLE_S)
+    box.run(PERIOD_S)
     assert "CARD REFUSES" in box.displayed
     assert "directory" in " ".join(report(box.loop.status))
 

@@ -13,61 +13,42 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.assembly.settings import build_controller
-from rotator.assembly.station import Station
 from rotator.box.app import App
 from rotator.config.load import parse
 from rotator.exchange.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode, Stop, Take
 from rotator.exchange.sources import PAGE, TRACKER, Source
 from rotator.runtime.event_watch import LONGEST_S, TICK_S, EventWatch
-from rotator.runtime.loop import ControlLoop
+from tests.runtime import loop_rig
+from tests.runtime.loop_rig import LINK, PATIENCE_S, PERIOD_S
 
-PERIOD_S = 0.05
-LINK, PANEL, CONSOLE = Source("gs232b", 1), Source("panel"), Source("console", 1)
+PANEL, CONSOLE = Source("panel"), Source("console", 1)
 BROWSER = Source(PAGE, 2)
 TRACK = Source(TRACKER)
 COAST_S = 1.5
 """The motor's coast, its relay's delay, and a cycle."""
-PATIENCE_S = 20.0
 
 
-class Rig:
-    """A box in simulated time. Its event loop ticks until a test lets it stand still."""
+class Rig(loop_rig.Rig):
+    """Its event loops tick until a test lets one stand still."""
 
     def __init__(self, text: str = "") -> None:
-        self.clock = SimClock()
-        config = parse(text, "test")
-        self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        self.events = EventWatch(self.clock)
-        self.page_events = EventWatch(self.clock)
-        self.ticking = self.page_ticking = True
         self.signs = 0
-        self.loop = ControlLoop(
-            build_controller(config),
-            self.station.rotor,
-            self.clock,
-            PERIOD_S,
-            after_good_step=self._sign,
-            events=self.events,
-            page_events=self.page_events,
-        )
+        self.ticking = self.page_ticking = True
+        clock = SimClock()
+        self.events, self.page_events = EventWatch(clock), EventWatch(clock)
+        super().__init__(text, clock, after_good_step=self._sign, events=self.events, page_events=self.page_events)
         self._ticked_s = self._page_ticked_s = self.clock()
 
     def _sign(self) -> None:
         self.signs += 1
 
-    def run(self, seconds: float) -> None:
-        end_s = self.clock() + seconds
-        while self.clock() < end_s:
-            if self.ticking and self.clock() >= self._ticked_s + TICK_S:
-                self._ticked_s = self.clock()
-                self.events.tick()
-            if self.page_ticking and self.clock() >= self._page_ticked_s + TICK_S:
-                self._page_ticked_s = self.clock()
-                self.page_events.tick()
-            cycle_s = self.clock()
-            self.loop.cycle()
-            self.clock.sleep_until(cycle_s + PERIOD_S)
+    def before_cycle(self) -> None:
+        if self.ticking and self.clock() >= self._ticked_s + TICK_S:
+            self._ticked_s = self.clock()
+            self.events.tick()
+        if self.page_ticking and self.clock() >= self._page_ticked_s + TICK_S:
+            self._page_ticked_s = self.clock()
+            self.page_events.tick()
 
     def order(self, source: Source, *orders: Order) -> None:
         for order in orders:
@@ -76,10 +57,9 @@ class Rig:
 
     def turned_deg(self, seconds: float) -> float:
         """How far the antenna turns in so many seconds."""
-        assert self.station.world is not None
-        before = self.station.world.antenna()
+        before = self.world.antenna()
         self.run(seconds)
-        return sum(abs(now - then) for now, then in zip(self.station.world.antenna(), before, strict=True))
+        return float(sum(abs(now - then) for now, then in zip(self.world.antenna(), before, strict=True)))
 
 
 @pytest.mark.parametrize(

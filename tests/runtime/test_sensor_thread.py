@@ -9,49 +9,38 @@ from collections.abc import Iterator
 
 import pytest
 
-from firmware_sim.clock import SimClock
 from hw.ports import AngleSource, Axis, Direction
-from rotator.assembly.settings import build_controller
-from rotator.assembly.station import Station
 from rotator.config.kinds import KINDS, KindName
-from rotator.config.model import Config
 from rotator.exchange.orders import Jog, Release
 from rotator.exchange.sources import Source
 from rotator.runtime.journal import Journal
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.sensor_thread import FIRST_S, LONGEST_READ_S, NEVER_READ, SLOW, SensorThread
+from tests.runtime import loop_rig
+from tests.runtime.loop_rig import AZ, EL, PERIOD_S
 
-AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
-PERIOD_S = 0.05
 TOLD_S = 5.0
 CONSOLE = Source("console")
 
 
-class Rig:
+class Rig(loop_rig.Rig):
     """A box whose reading thread hangs while `hangs`."""
 
     def __init__(self, kind: KindName) -> None:
+        super().__init__(f'[rotor]\ntype = "{kind}"\n')
         self.kind = kind
-        self.clock = SimClock()
-        config = Config.model_validate({"rotor": {"type": kind}})
-        self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, PERIOD_S)
         self.hangs = True
 
-    def run(self, seconds: float) -> None:
+    def run(self, seconds: float, loop: ControlLoop | None = None) -> None:
+        if not self.hangs:
+            return super().run(seconds, loop)
         for _ in range(round(seconds / PERIOD_S)):
-            if self.hangs:
-                self.loop.act()
-            else:
-                self.loop.cycle()
+            self.loop.act()
             self.clock.sleep(PERIOD_S)
+        return None
 
     def told(self) -> set[Axis]:
         return {axis for axis in Axis if NEVER_READ in str(self.loop.status.axis(axis).fault)}
-
-    def places(self) -> tuple[float, float]:
-        assert self.station.world is not None
-        return self.station.world.antenna()
 
 
 @pytest.fixture(params=list(KINDS))
@@ -68,7 +57,7 @@ def test_a_bus_that_hangs_from_the_start_is_said_and_no_order_turns_a_motor(rig:
     rig.loop.post(CONSOLE, Jog(AZ, Direction.PLUS, 2.0))
     rig.run(TOLD_S)
     assert rig.told() == set(Axis)
-    assert rig.places() == twin.places()
+    assert rig.world.antenna() == twin.world.antenna()
     twin.station.close()
 
 
