@@ -1,15 +1,18 @@
-"""The diagnostics file: whole, readable, and without a secret wherever one can stand."""
+"""The diagnostics file, without a secret wherever one can stand; and the doctor on the page, computed elsewhere."""
 
 from __future__ import annotations
 
+import asyncio
 import io
 import json
+import sys
 import tomllib
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 import hypothesis.strategies as st
@@ -21,8 +24,9 @@ from rotator.exchange.sources import Source
 from rotator.exchange.status import AxisStatus, Status
 from rotator.monitor.transcript import Way, encode_piece
 from rotator.web.diagnostics import Known, diagnostics
+from rotator.web.help_api import doctor
 from rotator.web.redaction import REMOVED, Redaction, secrets_of, spellings_of_place
-from tests.web.conftest import Box
+from tests.web.conftest import PATIENCE_S, Box
 
 STATUS = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
 SECRET = (
@@ -180,3 +184,39 @@ async def test_a_paired_browser_downloads_it_whole(box: Box, tmp_path: Path) -> 
 )  # fmt: skip
 def test_what_looks_like_a_secret_goes_and_the_rest_stays(text: str, left: str) -> None:
     assert Redaction().text(text) == left
+
+
+async def examined(box: Box) -> dict[str, Any]:
+    async with asyncio.timeout(PATIENCE_S):
+        while (answer := await box.get("doctor"))[0] == 202:
+            await asyncio.sleep(0.05)
+    assert answer[0] == 200, answer
+    return answer[1]
+
+
+async def test_everyone_who_may_look_reads_the_checks(box: Box) -> None:
+    told = await examined(box)
+    checks = {check["name"]: check for check in told["checks"]}
+    assert checks["configuration"]["ok"] is True
+    assert {"python", "running box", "state folder"} <= checks.keys()
+    assert told["at_s"] > 0
+
+
+def test_a_file_with_a_mistake_is_a_report_too(tmp_path: Path) -> None:
+    """The box runs on with what it has read; the next start would fail."""
+    file = tmp_path / "r.toml"
+    file.write_text('[sky]\nfetch = ["ftp://anna:tops3cret@sky.example/x"]\n', encoding="utf-8")
+    now_s = [0.0]
+
+    async def main() -> dict[str, Any]:
+        checks = doctor(file, Redaction(), lambda: now_s[0], lambda: 1.0, kept_s=10.0)
+        checks._words = checks._words[3:]  # a busy machine would let the test wait
+        assert checks._words[0] == sys.executable
+        async with asyncio.timeout(PATIENCE_S):
+            return await checks.newest()
+
+    told = asyncio.run(main())
+    first = told["checks"][0]
+    assert first["ok"] is False
+    assert "sky.example" in first["found"]
+    assert "tops3cret" not in str(told)
