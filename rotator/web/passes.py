@@ -55,7 +55,7 @@ def command(path: Path) -> tuple[str, ...]:
     return of_the_program("sky", "passes", "--json", "--hours", str(HOURS), "--config", str(path))
 
 
-class Passes:
+class Passes(Computed):
     """`words`: the command; None: the configuration has no place of the station. `clock` gives seconds.
 
     `elements` gives the elements of the satellites: the same object until one changes.
@@ -64,41 +64,25 @@ class Passes:
     def __init__(
         self, words: Sequence[str] | None, clock: Callable[[], float], elements: Callable[[], object] = lambda: None
     ) -> None:
+        super().__init__(
+            words or (), clock, named="the passes", kept_s=KEPT_S, shaped=lambda rows: {"passes": rows[:MOST]}
+        )
         self._elements = elements
         self._computed_for = elements()
-        self._computed = (
-            Computed(words, clock, named="the passes", kept_s=KEPT_S, shaped=lambda rows: {"passes": rows[:MOST]})
-            if words
-            else None
-        )
-
-    @property
-    def latest(self) -> list[dict[str, Any]] | None:
-        """The last computed passes. If they are old, new ones are being computed. None: none yet."""
-        if self._computed is None:
-            return []
-        self._look()
-        latest = self._computed.latest()
-        return None if latest is None else latest.get("passes", [])
-
-    def forget(self) -> None:
-        """Elements or priorities have changed: compute the passes again at the next request."""
-        if self._computed:
-            self._computed.forget()
-
-    async def close(self) -> None:
-        """End the process that computes."""
-        if self._computed:
-            await self._computed.close()
 
     def answer(self) -> dict[str, Any] | None:
         """`passes`, or `error` with the reason. None: they are being computed; ask again."""
-        self._look()
-        return self._computed.answer() if self._computed else {"error": NO_PLACE}
-
-    def _look(self) -> None:
-        """Forget the passes if elements are new: fetched, or copied into the folder."""
+        if not self._words:
+            return {"error": NO_PLACE}
         elements = self._elements()
         if elements is not self._computed_for:
+            # Fetched, or copied into the folder.
             self._computed_for = elements
             self.forget()
+        return super().answer()
+
+    @property
+    def known(self) -> list[dict[str, Any]] | None:
+        """The last computed passes. If they are old, new ones are being computed. None: none yet."""
+        latest = self.latest()
+        return None if latest is None else latest.get("passes", [])

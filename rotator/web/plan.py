@@ -157,7 +157,7 @@ class Plan:
         """The next pass of the plan, or the next good one without a plan, with its path; {}: none; None: ask again."""
         if not self._sky.elements and not self._follow:
             return {}
-        passes = self._passes.latest
+        passes = self._passes.known
         if passes is None:
             return None
         found = next_pass(passes, self._utc())

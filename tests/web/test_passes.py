@@ -69,7 +69,7 @@ async def test_new_elements_change_them(tmp_path: Path) -> None:
     known[0] = ("ISS",)
     assert passes.answer() is None
     await computed(passes)
-    assert passes.latest == []
+    assert passes.known == []
     assert counts.read_text() == "xx"
 
 
