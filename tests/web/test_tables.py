@@ -54,14 +54,13 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG)
-async def test_a_table_with_a_mistake_moves_nothing(box: Box, name: str) -> None:
+async def test_a_table_with_a_mistake_moves_nothing(box: Box) -> None:
     await box.pair()
-    status, told = await send(box, WRONG[name], "bad.csv")
-    assert status == 400
-    assert told["error"].startswith("bad.csv:")
-    assert box.world.drives() == OFF
-    assert box.status.flown is None
+    for name, table in WRONG.items():
+        status, told = await send(box, table, "bad.csv")
+        assert (status, told["error"][:8]) == (400, "bad.csv:"), name
+        assert box.world.drives() == OFF
+        assert box.status.flown is None
 
 
 async def test_what_no_antenna_can_follow_is_told_and_moves_nothing(box: Box, tmp_path: Path) -> None:
