@@ -86,8 +86,11 @@ async def test_the_code_goes_to_nobody_who_does_not_stand_at_the_box(box: Box) -
     for path in ("status", "box", "past", "path", "me", "paired", "log", "passes", "openapi.json", "nothing"):
         told.append(await box.get(path))
     async with box.http.ws_connect(f"{box.url}/api/live") as live:
-        pictures = [await live.receive_str() for _ in range(3)]
-    assert "PAIR CODE ******" in pictures[-1]
+        pictures = [await live.receive_str()]
+        async with asyncio.timeout(PATIENCE_S):
+            # A fault, as of a busy computer, takes turns with it.
+            while "PAIR CODE ******" not in pictures[-1]:
+                pictures.append(await live.receive_str())
     assert code not in f"{told}{pictures}"
 
 
