@@ -19,8 +19,8 @@ from hw.ports import AnalogInputs, Axis
 from hw.sensors.pot import PotSensor, Reference
 from rotator.assembly.buses import Buses
 from rotator.config.adc import Adc
+from rotator.config.chips import KERNEL_SELECTS
 from rotator.config.model import Config
-from rotator.config.spi import KERNEL_SELECTS
 
 SUPPLY = "supply"
 """The name of the wire to the input that measures the pots' supply."""

@@ -14,7 +14,7 @@ from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioInputs, GpioOutputs,
 from hw.buses.i2c import SmbusI2C
 from hw.buses.spi import SO, KernelSpi, LineSpi, SpiBus
 from hw.ports import HardwareError
-from rotator.config.spi import KERNEL_SELECTS, SpiUse
+from rotator.config.chips import KERNEL_SELECTS, SpiUse
 
 _ELSEWHERE = (
     "This computer is no Raspberry Pi, or its GPIO driver is not loaded. "

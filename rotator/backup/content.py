@@ -25,8 +25,7 @@ from rotator.config.model import Config
 from rotator.exchange.foreign import json_of
 from rotator.store import learnt
 from rotator.store.compass import COMPASS
-from rotator.store.forms import Form, LaterFormError
-from rotator.store.json_file import decode, encode
+from rotator.store.json_file import Form, LaterFormError, decode, encode
 from rotator.store.knobs import KNOBS
 from rotator.store.plain import read_plain
 from rotator.store.priorities import PRIORITIES

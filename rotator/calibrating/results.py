@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis
-from rotator.config.mount_model import SkyRow
+from rotator.config.mount import SkyRow
 from rotator.control.sky.pointing_model import PointingModel
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from rotator.assembly.settings import build_mount, build_offsets
 from rotator.config.model import Config
-from rotator.config.mount_model import SkyRow
+from rotator.config.mount import SkyRow
 from rotator.control.sky.model_fit import SkyPoint
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.offsets import Offsets

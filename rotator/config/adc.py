@@ -10,8 +10,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from hw.ports import Axis
-from rotator.config.i2c import I2CChip
-from rotator.config.spi import SpiUse
+from rotator.config.chips import I2CChip, SpiUse
 from rotator.config.table import Gpio, I2CAddress, I2CBus, Table
 
 Input = Annotated[int, Field(ge=0, le=7)]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from rotator.config.i2c import I2CChip
+from rotator.config.chips import I2CChip
 from rotator.config.links import NEEDS_STATION, Link, is_same_place
 
 

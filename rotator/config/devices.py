@@ -10,7 +10,7 @@ from typing import Literal
 from pydantic import Field
 
 from hw.ports import Axis
-from rotator.config.i2c import I2CChip
+from rotator.config.chips import I2CChip
 from rotator.config.table import Gpio, I2CAddress, I2CBus, Table
 
 

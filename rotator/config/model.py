@@ -15,10 +15,10 @@ from hw.ports import AngleSource, Axis
 from rotator.config.adc import Adc
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable, Azimuth, Elevation
+from rotator.config.chips import I2CChip, SpiUse, spi_lines
 from rotator.config.conflicts import chips_twice, follows_itself, needs_station, pins_twice, places_twice
 from rotator.config.devices import Lcd, Relays
 from rotator.config.forbidden import Place, forbidden_faults
-from rotator.config.i2c import I2CChip
 from rotator.config.kinds.digipot import Digipot, DigipotKind
 from rotator.config.kinds.kind import EndStop, Kind
 from rotator.config.kinds.moteus import Moteus, MoteusKind
@@ -35,7 +35,6 @@ from rotator.config.rotors import Rotor, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
 from rotator.config.sky import SkyTable
-from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.station import StationTable
 from rotator.config.table import FilePath, Table
 

@@ -1,17 +1,50 @@
-"""The table `[mount]`: how the two axes carry the antenna, and where it may not point.
+"""The table `[mount]`: how the two axes carry the antenna, where it may not point, and how it really stands.
 
-Knows the keys and the rules inside the table. How the mount really stands is in `mount_model`.
+Knows the keys and the rules inside the table. Does not know how `[mount.model]` turns directions into axis angles, nor
+how it is found.
 """
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
 
 from rotator.config.forbidden import ForbiddenTable
-from rotator.config.mount_model import MountModelTable
 from rotator.config.table import Point, Table
+
+SkyRow = Annotated[tuple[float, float, float, float], Field(strict=False)]
+"""Azimuth and elevation of the axes, on the rotor's own scale; azimuth and elevation of what the boom pointed at."""
+POINT_BOUNDS = ((-360.0, 720.0), (-90.0, 210.0), (0.0, 360.0), (-10.0, 90.0))
+
+
+class MountTerms(Table):
+    ia_deg: float = Field(0.0, ge=-10, le=10)
+    """The azimuth reads too much."""
+    ie_deg: float = Field(0.0, ge=-10, le=10)
+    """The elevation reads too little."""
+    an_deg: float = Field(0.0, ge=-10, le=10)
+    """The mast leans north."""
+    aw_deg: float = Field(0.0, ge=-10, le=10)
+    """The mast leans west."""
+    ca_deg: float = Field(0.0, ge=-10, le=10)
+    """The boom points left of square to the cross axis."""
+    npae_deg: float = Field(0.0, ge=-10, le=10)
+    """The cross axis hangs down on its left."""
+
+
+class MountModelTable(MountTerms):
+    points: list[SkyRow] = Field(default_factory=list, max_length=200)
+    """Where the terms come from: azimuth and elevation of the rotor, then of the sky."""
+
+    @field_validator("points")
+    @classmethod
+    def _are_places(cls, points: list[SkyRow]) -> list[SkyRow]:
+        for point in points:
+            for value, (low, high) in zip(point, POINT_BOUNDS, strict=True):
+                if not low <= value <= high:
+                    raise ValueError(f"{value:g} of the point {list(point)} must be from {low:g} to {high:g}")
+        return points
 
 
 class MountTable(Table):

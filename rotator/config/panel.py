@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from rotator.config.i2c import I2CChip
+from rotator.config.chips import I2CChip
 from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus, Table
 
 Output = Annotated[int, Field(ge=0, le=15)]

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from hw.ports import AngleSource
 from rotator.config.angle import Angle
-from rotator.config.i2c import I2CChip
+from rotator.config.chips import I2CChip
 from rotator.config.table import I2CAddress, I2CBus, Table
 
 MPU6050_BEHIND_S = 0.32

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from rotator.config.mount_model import MountTerms
+from rotator.config.mount import MountTerms
 from rotator.config.table import FilePath, PerAxis, Table
 
 

@@ -6,7 +6,6 @@ Knows the errors of pydantic, and the keys and words that come near to what was 
 from __future__ import annotations
 
 import difflib
-import re
 from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import Any, get_args, get_origin
@@ -15,7 +14,6 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from rotator.config.model import Config
-from rotator.config.rotor_names import type_of
 
 _KINDS = {
     "float": "a number",
@@ -27,13 +25,6 @@ _KINDS = {
     "model": "a table",
 }
 """The first word of a pydantic error type, in words for the user."""
-_PROTOCOL_OF = {
-    "yaesu": "gs232b", "gs232": "gs232b", "g5500": "gs232b", "satpc32": "gs232b", "sattrack": "gs232-f1efw",
-    "hamlib": "rotctld", "gpredict": "rotctld", "easycomm": "easycomm2", "spid": "rot2prog", "arduino": "gs232-f1efw",
-}  # fmt: skip
-"""What a person calls a protocol, in small letters and digits, and the one that is meant."""
-_LISTENS = ("tcp", "listen")
-"""Keys for a port of this machine: a bare number is the port."""
 
 
 def explain(error: ErrorDetails) -> str:
@@ -45,18 +36,19 @@ def explain(error: ErrorDetails) -> str:
     match error["type"]:
         case "extra_forbidden" if len(place) == 1 and isinstance(value, (dict, list)):
             there = [name for name, *_ in tables() if "." not in name]
-            near = _near(key.lower(), there, 0.6)
+            near = _near(key, there)
             meant = f"; did you mean {_heading(near)}?" if near else f"; there are {', '.join(there)}"
             return f"[{key}]: no such table{meant}"
         case "extra_forbidden":
-            return f"{key} = {show(value)}: no such key{_right_key(place, value)}"
+            return f"{key} = {show(value)}: no such key{_right_key(place)}"
         case "missing":
             choices = _choices_of(place)
             return f"{key}: must be given{', one of ' if choices else ''}{', '.join(choices)}"
         case "literal_error":
             allowed = [str(choice) for choice in _choices(context)]
-            sentence = f"{key} = {show(value)}: must be one of {', '.join(allowed)}"
-            return sentence + (_right_choice(value, allowed) or (_right_type(value) if key == "rotor.type" else ""))
+            near = _near(str(value), allowed)
+            meant = f"; did you mean {near}?" if near else ""
+            return f"{key} = {show(value)}: must be one of {', '.join(allowed)}{meant}"
         case "value_error" if not place:
             return str(context["error"])
         case "value_error":
@@ -65,8 +57,8 @@ def explain(error: ErrorDetails) -> str:
             sort = kind.split("_")[0]
             expected = _KINDS.get(sort) if kind.endswith(("_type", "_parsing")) else None
             expected = expected or error["msg"].removeprefix("Input should be ")
-            name = next((str(part) for part in reversed(place) if isinstance(part, str)), "")
-            return f"{key} = {show(value)}: must be {expected}{_right_form(key, name, value)}"
+            is_table = isinstance(value, (dict, list)) and key in {table for table, *_ in tables()}
+            return f"{key} = {show(value)}: must be {expected}{f'; write {_heading(key)}' if is_table else ''}"
 
 
 def written(place: list[int | str]) -> str:
@@ -117,15 +109,12 @@ def _choices_of(place: list[int | str]) -> list[str]:
     return [choice for choice in get_args(field.annotation) if isinstance(choice, str)] if field else []
 
 
-def _right_key(place: list[int | str], value: object) -> str:
+def _right_key(place: list[int | str]) -> str:
     """What was meant by a key that the table at `place` does not have."""
-    name = str(place[-1])
     here = ".".join(str(part) for part in place[:-1] if isinstance(part, str))
     models = {table: model for table, model, _ in tables()}
     known = list(models.get(here, Config).model_fields)
-    if name.lower() == "name" and "type" in known and isinstance(value, str) and type_of(value):
-        return f"; did you mean type? {type_of(value)}"
-    near = _near(name.lower(), known, 0.6)
+    near = _near(str(place[-1]), known)
     return f"; did you mean {near}?" if near else f"; known here: {', '.join(known)}"
 
 
@@ -133,34 +122,10 @@ def _heading(name: str) -> str:
     return f"[[{name}]]" if next(several for table, _, several in tables() if table == name) else f"[{name}]"
 
 
-def _right_type(value: object) -> str:
-    advice = type_of(value) if isinstance(value, str) else None
-    return f"; {advice}" if advice else ""
-
-
-def _right_choice(value: object, allowed: list[str]) -> str:
-    if isinstance(value, str) and value in allowed:
-        return f"; write {value} without quotes"
-    if isinstance(value, bool) and len(allowed) == 2 and "off" in allowed:
-        on = next(choice for choice in allowed if choice != "off")
-        return f'; write "{on if value else "off"}"'
-    usual = _PROTOCOL_OF.get(re.sub(r"[^a-z0-9]", "", str(value).lower()))
-    if usual in allowed:
-        return f"; did you mean {usual}?"
-    near = _near(str(value).lower(), allowed, 0.6)
-    return f"; did you mean {near}?" if near else ""
-
-
-def _right_form(key: str, name: str, value: object) -> str:
-    """A heading with the wrong number of brackets; and `tcp = 4533`, a port alone, of this machine alone."""
-    if isinstance(value, (dict, list)) and key in {table for table, *_ in tables()}:
-        return f"; write {_heading(key)}"
-    return f'; write "127.0.0.1:{value}"' if name in _LISTENS and type(value) is int else ""
-
-
 def _choices(context: Mapping[str, Any]) -> list[str]:
     return [choice.strip().strip("'") for choice in str(context["expected"]).replace(" or ", ", ").split(",")]
 
 
-def _near(word: str, known: list[str], cutoff: float) -> str | None:
-    return next(iter(difflib.get_close_matches(word, known, n=1, cutoff=cutoff)), None)
+def _near(word: str, known: list[str]) -> str | None:
+    """The one that differs least, by its letters alone: nothing is guessed of what a person calls it."""
+    return next(iter(difflib.get_close_matches(word.lower(), known, n=1)), None)

@@ -13,7 +13,7 @@ from hw.ports import Axis, HardwareError
 from rotator.assembly.adc import Converter
 from rotator.assembly.chips import Bus
 from rotator.config.axes import AxisTable
-from rotator.config.i2c import ADDRESSES, I2CChip
+from rotator.config.chips import ADDRESSES, I2CChip
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine

@@ -10,9 +10,8 @@ from collections.abc import Iterator
 
 from hw.ports import HardwareError
 from rotator.assembly.chips import OutputBoard
-from rotator.config.i2c import I2CChip
+from rotator.config.chips import KERNEL_SELECTS, I2CChip, SpiUse
 from rotator.config.model import Config
-from rotator.config.spi import KERNEL_SELECTS, SpiUse
 from rotator.doctor.bus import chip_name
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine

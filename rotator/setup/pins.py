@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from rotator.config.chips import SpiUse
 from rotator.config.kinds.kind import OffLine
 from rotator.config.model import Config
-from rotator.config.spi import SpiUse
 from rotator.setup import boot_config
 from rotator.setup.blocks import Block
 from rotator.setup.boot_config import Setting

@@ -21,8 +21,7 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.store import json_file
-from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile, number
+from rotator.store.json_file import Form, JsonFile, number
 
 FILE_NAME = "counts.json"
 """Beside the state file."""

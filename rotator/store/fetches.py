@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile, number
+from rotator.store.json_file import Form, JsonFile, number
 from rotator.store.whole import alone
 
 FORM = Form("rotator fetches")

@@ -14,8 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile, number
+from rotator.store.json_file import Form, JsonFile, number
 from rotator.store.whole import write_whole
 
 log = logging.getLogger(__name__)

@@ -1,20 +1,22 @@
 """One JSON file with a format name, replaced as a whole: the form of each file in which the box stores something.
 
-Knows that a damaged or foreign file must not stop the box, and that the file of a later version stays as it is. Does
-not know what the content means: each store has its own `parse`.
+The name has a number, `rotator counts 1`, and steps from an earlier number to the present. Knows that a damaged or
+foreign file must not stop the box, and that the file of a later version stays as it is. Does not know what the content
+means: each store has its own `parse`.
 """
 
 from __future__ import annotations
 
 import json
 import logging
+import re
 import reprlib
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from rotator.exchange.foreign import json_of
-from rotator.store.forms import Form, LaterFormError
 from rotator.store.whole import write_block, write_whole
 
 log = logging.getLogger(__name__)
@@ -25,6 +27,51 @@ Parse = Callable[[dict[str, Any]], T]
 """From the file's content to a value. Raises ValueError, KeyError, TypeError or AttributeError for damaged content."""
 LONGEST_BYTES = 100_000
 """A hundred times what any of these files holds: a larger one is another's."""
+
+
+Step = Callable[[dict[str, Any]], dict[str, Any]]
+"""From the content of a file in one form to the content in the next. Raises what a damaged content raises."""
+
+
+class LaterFormError(ValueError):
+    """A later version of the program wrote this file: this version can neither read it, nor may it overwrite it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """`steps`: one for each earlier number, the first from 1 to 2. So a file of any age can be read.
+
+    A change of a file's content adds a step, and the present number rises with it.
+    """
+
+    name: str
+    steps: tuple[Step, ...] = ()
+
+    @property
+    def today(self) -> str:
+        return f"{self.name} {self._number}"
+
+    @property
+    def _number(self) -> int:
+        return 1 + len(self.steps)
+
+    def brought_up(self, content: object) -> dict[str, Any]:
+        """The content in the present form. Raises LaterFormError; ValueError: it belongs to another file."""
+        format_name = content.get("format") if isinstance(content, dict) else None
+        found = (
+            re.fullmatch(rf"{re.escape(self.name)} ([1-9]\d{{0,5}})", format_name)
+            if isinstance(format_name, str)
+            else None
+        )
+        if not isinstance(content, dict) or found is None:
+            raise ValueError(f"its format is not {self.today!r}")
+        if (number := int(found[1])) > self._number:
+            raise LaterFormError(
+                f"a later version of the program wrote it: its format is {format_name!r}, not {self.today!r}"
+            )
+        for step in self.steps[number - 1 :]:
+            content = step(content)
+        return content
 
 
 def encode(form: Form, content: Mapping[str, object]) -> str:

@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from rotator.store import json_file
-from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile
+from rotator.store.json_file import Form, JsonFile
 
 FILE_NAME = "paired.json"
 FORM = Form("rotator paired")

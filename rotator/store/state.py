@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from rotator.store.forms import Form
 from rotator.store.hanging import under_way
-from rotator.store.json_file import JsonFile, damage
+from rotator.store.json_file import Form, JsonFile, damage
 from rotator.store.plain import read_plain
 from rotator.store.whole import alone, remove_whole, write_whole
 

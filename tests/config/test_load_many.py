@@ -178,19 +178,3 @@ def test_it_loads_or_says_what_is_wrong(said: dict[str, Any], linked: list[Any])
         found = ["none"]
     assert found
     assert all(found)
-
-
-@pytest.mark.parametrize(
-    ("text", "ends"),
-    [
-        ('[[link]]\nprotocol = "yaesu"\npty = "x"\n', "; did you mean gs232b?"),
-        ('[[link]]\nprotocol = "EasyComm"\npty = "x"\n', "; did you mean easycomm2?"),
-        ('[[link]]\nprotocol = "rotctld"\ntcp = 4533\n', '; write "127.0.0.1:4533"'),
-        ('[page]\nlisten = "8232"\n', 'such as "127.0.0.1:8232"'),
-        ("[mount]\nflip = true\n", '; write "over-top"'),
-        ("[mount]\nflip = false\n", '; write "off"'),
-    ],
-)
-def test_what_a_person_calls_it(text: str, ends: str) -> None:
-    (said,) = faults(text)
-    assert said.endswith(ends)

@@ -18,8 +18,7 @@ from rotator.config import migrations
 from rotator.config.load import ConfigError, load
 from rotator.config.save import save_table
 from rotator.store.counts import LOST, CountsFile
-from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile, decode
+from rotator.store.json_file import Form, JsonFile, decode
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 CAMS = {axis: {"spacing_deg": 5.0} for axis in Axis}

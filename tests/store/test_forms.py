@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from rotator.store.forms import Form, LaterFormError
+from rotator.store.json_file import Form, LaterFormError
 
 
 def note(step: str) -> Any:

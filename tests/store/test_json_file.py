@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile, decode, encode
+from rotator.store.json_file import Form, JsonFile, decode, encode
 from rotator.store.json_file import number as within
 
 FORM = Form("rotator test")

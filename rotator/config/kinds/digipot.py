@@ -14,9 +14,9 @@ from pydantic import Field
 from hw.ports import AngleSource, Axis
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
+from rotator.config.chips import SpiUse
 from rotator.config.kinds.kind import Kind, OffLine, Usual
 from rotator.config.kinds.points import out_of_reach, reach_deg
-from rotator.config.spi import SpiUse
 from rotator.config.table import Gpio, PerAxis, Point, Table
 
 

@@ -12,8 +12,7 @@ from typing import Any, ClassVar
 from hw.ports import Axis
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
-from rotator.config.i2c import I2CChip
-from rotator.config.spi import SpiUse
+from rotator.config.chips import I2CChip, SpiUse
 
 Usual = Mapping[str, Mapping[str, Any]]
 """Defaults by table (`azimuth`, `sim.azimuth`) and key."""

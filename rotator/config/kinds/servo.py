@@ -14,7 +14,7 @@ from pydantic import Field
 from hw.ports import AngleSource, Axis
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
-from rotator.config.i2c import I2CChip
+from rotator.config.chips import I2CChip
 from rotator.config.kinds.kind import Kind, OffLine, Usual
 from rotator.config.kinds.points import out_of_reach, reach_deg
 from rotator.config.table import Gpio, I2CAddress, I2CBus, PerAxis, Point, Table

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.config.i2c import ADDRESSES, I2CChip
+from rotator.config.chips import ADDRESSES, I2CChip
 from tests.config.texts import faults
 
 

@@ -1,6 +1,8 @@
-"""An I2C chip in use, with its bus and address, the addresses that each part can have, and one that it cannot have.
+"""The chips in use on I2C and SPI: buses, addresses and lines, the addresses that each part can have, and one that it
+cannot have.
 
-Knows no register, and not which chips a configuration uses: its tables say that.
+Knows the two select lines of the Pi's own SPI controller, and that its chips share clock and data lines. Knows no
+register, and not which chips a configuration uses: its tables say that.
 """
 
 from __future__ import annotations
@@ -17,8 +19,6 @@ ADDRESSES: dict[str, tuple[int, ...]] = {
     "BNO055": (0x28, 0x29),
 }
 """The usual addresses of each part, from its data sheet. 0x38 to 0x3F are those of the PCF8574A."""
-
-
 _MORE = {"PCA9685": range(0x40, 0x78), "AS5600": range(0x08, 0x78)}
 """Six pins set a PCA9685's address, and an AS5600L's is programmed."""
 
@@ -48,3 +48,38 @@ def _listed(addresses: tuple[int, ...]) -> str:
     ends = [at for at in addresses if at - 1 not in addresses or at + 1 not in addresses]
     text = ", ".join(f"0x{at:02x}" for at in ends)
     return text if len(ends) == len(addresses) else re.sub(r"(0x..), (0x..)", r"\1 to \2", text)
+
+
+KERNEL_SELECTS = {8: 0, 7: 1}
+"""The select lines of /dev/spidev0.0 and /dev/spidev0.1, by GPIO: CE0 and CE1."""
+
+
+@dataclass(frozen=True, slots=True)
+class SpiUse:
+    """The chips of one table of the file. Each line is its GPIO by the key within that table."""
+
+    table: str
+    """Such as `digipot`."""
+    chips: str
+    """The name of the chips for the user: `digital pots`."""
+    selects: dict[str, int]
+    """The select lines: `azimuth.select`."""
+    wires: dict[str, int]
+    """Clock and data: `sck`, `si`, and `so` where a chip answers."""
+    kernel: bool
+    """True: the Pi's own SPI controller, through spidev. False: the program switches the lines bit by bit."""
+
+    @property
+    def lines(self) -> list[tuple[int, str]]:
+        """Every GPIO, with the full key that names it."""
+        return [(pin, f"{self.table}.{key}") for key, pin in (self.selects | self.wires).items()]
+
+
+def spi_lines(uses: list[SpiUse]) -> list[tuple[int, str]]:
+    """The lines of all uses, each with its key. Lines that chips share on the kernel's SPI are listed once."""
+    lines: list[tuple[int, str]] = []
+    shared: set[int] = set()
+    for use in uses:
+        lines += [(pin, key) for pin, key in use.lines if pin not in shared]
+        shared.update(use.wires.values() if use.kernel else ())
+    return lines
