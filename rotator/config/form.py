@@ -13,8 +13,7 @@ from typing import Any, Literal, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from rotator.config.descriptions import describe
-from rotator.config.keys import NAMED, bare, table_of
+from rotator.config.keys import NAMED, bare, describe, table_of
 from rotator.config.model import Config
 
 _UNITS = {

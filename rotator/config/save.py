@@ -9,18 +9,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import tomlkit
-from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import Array
-
 from rotator.config import toml_text
+from rotator.config.edit import Change, NoChangeError, edited
 from rotator.config.load import ConfigError, Mistake, is_empty, parse
-from rotator.config.migrations import FormatError, brought_up
+from rotator.config.migrations import FormatError
+from rotator.config.statements import Place
 from rotator.config.writing import WRITING, replace
+from rotator.exchange.foreign import toml_of
 
 Points = Sequence[Sequence[float]]
-LONG_TABLE = 4
-"""A calibration with more points than this has one line for each point."""
 
 
 def save_table(
@@ -37,9 +34,9 @@ def save_table(
                 # Another program has emptied it. With these keys alone it would be the file of a simulated station.
                 raise ConfigError(str(path), [Mistake("is empty")])
             text = changed(before, name, calibration=calibration, points=points, **values)
-        except FormatError as fault:
+        except (FormatError, NoChangeError) as fault:
             raise ConfigError(str(path), [Mistake(str(fault))]) from fault
-        except (TOMLKitError, ValueError) as fault:
+        except ValueError as fault:
             raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
         except toml_text.NoTextError as none:
             raise ConfigError(str(path), [none.mistake]) from none
@@ -52,32 +49,19 @@ def changed(
     text: str, name: str, *, calibration: Points | None = None, points: Points | None = None, **values: float | bool
 ) -> str:
     """The file's text with these keys in the table `[name]`; everything else as it was."""
-    document = tomlkit.parse(brought_up(text))
-    outer, *inner = name.split(".")
-    if outer not in document and text and not text.endswith("\n\n"):
-        document.add(tomlkit.nl())
-    table = document.setdefault(outer, tomlkit.table(is_super_table=bool(inner)))
-    for each in inner:
-        table = table.setdefault(each, tomlkit.table())
-    for key, value in values.items():
-        table[key] = value if isinstance(value, bool) else _short(value, 3)
-    park = document.get("mount", {}).get(f"park_{name}_deg")
+    table = tuple(name.split("."))
+    wanted: dict[Place, object] = {
+        (*table, key): value if isinstance(value, bool) else _short(value, 3) for key, value in values.items()
+    }
+    park = toml_of(text).get("mount", {}).get(f"park_{name}_deg")
     if park is not None and "min_deg" in values and "max_deg" in values:
         # A rotor that turns less far than the file had it parks as near to its old place as it can.
-        document["mount"][f"park_{name}_deg"] = _short(min(max(park, values["min_deg"]), values["max_deg"]), 3)
+        wanted["mount", f"park_{name}_deg"] = _short(min(max(park, values["min_deg"]), values["max_deg"]), 3)
     for key, rows in (("calibration", calibration), ("points", points)):
         if rows is not None:
-            table[key] = _rows(rows)
-    return tomlkit.dumps(document)
-
-
-def _rows(points: Points) -> Array:
-    """The first number of a calibration's point is a share of the sensor's range, and needs more decimals."""
-    rows = tomlkit.array()
-    for point in points:
-        first, *others = point
-        rows.append([round(first, 5), *(_short(each, 3) for each in others)])
-    return rows.multiline(len(points) > LONG_TABLE)
+            # The first number of a calibration's point is a share of the sensor's range, and needs more decimals.
+            wanted[*table, key] = [[round(first, 5), *(_short(each, 3) for each in others)] for first, *others in rows]
+    return edited(text, [Change(place, value) for place, value in wanted.items()])
 
 
 def _short(value: float, digits: int) -> float | int:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping
 from functools import cache
 
-from rotator.config.descriptions import describe
+from rotator.config.keys import describe
 from rotator.config.load import shipped
 from rotator.config.model import Config
 from rotator.config.statements import statements

@@ -9,7 +9,6 @@ import ipaddress
 import re
 from collections.abc import Callable, Iterator, Mapping
 
-from rotator.config.rotor_names import shipped_file
 from rotator.config.station import StationTable
 from rotator.setup.machine import Machine
 from rotator.setup.question import Choice, Question
@@ -28,6 +27,28 @@ ROTORS = (
     Choice("orbit360", "control boxes with a knob (ORBIT-360), a digital pot in its place"),
 )
 """The shipped configurations for real rotors."""
+_SHIPPED = {
+    "g5500": (
+        r"(yaesu|kenpro)?[gk]r?s?5[456]00(dc|ac|a|b)?",
+        r"(yaesu|kenpro)?[gk]r?s?(400|450|500|550|600|650|800|1000|2000|2700|2800)(rc|sdx|dxa|dxc|xl|sa|a|c|dc)?",
+    ),
+    "f1efw": (
+        r"(cde|hygain|cd)?ham(ii|iii|iv|v|[2345m])?|t2x|tailtwister|cd(e|44|45)?(ii)?",
+        r"(cde|hygain)?ar(20|22|30|33|35|40)x?[lx]?l?",
+        r"f1efw|arduino|sketch|relays?|pots?|relaypots?|potentiometer",
+        r"(create)?rc5\w*|emotator\w*|prosistel\w*|pst\d+\w*|(alliance)?hd73|kr\d+\w*",
+    ),
+    "u100": (
+        r"(alfa|alpha)?spid|(big)?ras(hr|2)?|rak|rau",
+        r"(m2)?(orion)?(or|rc)?2800(px|pdc|g)?|orion|m2",
+        r"(alliance)?[ut]1[01]0|alliance|ko6th|relaypulses?|pulses?|counter|reed|hall",
+    ),
+    "orbit360": (r"orbit(360)?|aa2tx|mcp410\d\d|digitalpot|digipots?",),
+    "isel": (r"isel|mjbots|moteus\w*|canfd",),
+    "servos": (r"(sg|mg|ds|hs)\d+\w*|hobbyservos?|servos|pca9685",),
+}
+"""By shipped file: what radio amateurs call their rotors, in small letters without spaces and signs. The first that
+fits counts."""
 ON_RELAYS = ("g5500", "f1efw", "spid", "u100")
 TURNS = {"g5500": ("450", "180"), "f1efw": ("360", "90"), "spid": ("360", "180"), "u100": ("360", "180")}
 
@@ -125,8 +146,10 @@ def _network(machine: Machine) -> Question:
 
 def _rotor(name: str) -> str:
     """The shipped configuration for a rotor's name on its box, such as G-450. Raises ValueError."""
-    if found := shipped_file(name):
-        return found
+    for bare in (re.sub(r"[^a-z0-9]", "", word) for word in (name.lower(), *name.lower().split())):
+        for profile, patterns in _SHIPPED.items():
+            if any(re.fullmatch(pattern, bare) for pattern in patterns):
+                return profile
     raise ValueError(f'"{name}" is not known. Type the number of one that measures its angle in the same way')
 
 

@@ -1,7 +1,7 @@
 """Plans the set-up that makes the Pi a COM port of the PC: a line of config.txt, a systemd unit, and a `[[link]]`.
 
-Knows the overlay, the unit, and other programs that use the same USB controller. `gadget` builds the USB device. Works
-on texts and writes no file.
+Knows the overlay, the unit, the lines of that link (one that the user has changed stays), and other programs that use
+the same USB controller. `gadget` builds the USB device. Works on texts and writes no file.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from rotator.setup import boot_config, link
+from rotator.config.load import ConfigError, parse
+from rotator.setup import boot_config
 from rotator.setup.blocks import Block
 from rotator.setup.pi import Pi
 from rotator.setup.plan import Change, ChangeSet, Content, Files, Link, SetupError, changes
@@ -33,6 +34,12 @@ _NO_GETTY = f"""\
 [Unit]
 ConditionPathExists=!/{UNIT}
 """
+
+PORT = "/dev/ttyGS0"
+LINK_LINES = ("[[link]]                      # the PC, over USB", 'protocol = "gs232b"', f'serial = "{PORT}"')
+LINK_BLOCK = Block("rotator setup usb-serial", re.compile("|".join(map(re.escape, LINK_LINES))), last=True)
+
+_BY_HAND = 'add a [[link]] with protocol = "gs232b" and serial = "/dev/ttyGS0" to your rotator.toml'
 
 TWO_ADAPTERS = """\
 Without it the Pi and the PC still meet over two USB serial adapters (3.3 V or RS-232, both of one kind):
@@ -89,7 +96,7 @@ def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: s
     if rival := _rival(files, places):
         raise SetupError(rival)
     before = _text(files, places.boot_config)
-    settings, remark = link.added(_text(files, places.settings) if files[places.settings] is not None else None)
+    settings, remark = _link_added(_text(files, places.settings) if files[places.settings] is not None else None)
     ours: dict[Path, Content] = {UNIT: unit(command, usb_id), WANTED: Link(f"/{UNIT}")}
     ours |= dict.fromkeys(GETTYS, _NO_GETTY)
     wanted = changes(
@@ -110,7 +117,7 @@ def undone(files: Files, places: Places) -> ChangeSet:
     """The changes that remove the lines and files of `plan`, and no others."""
     before = _text(files, places.boot_config)
     text = _text(files, places.settings) if files[places.settings] is not None else None
-    settings, remark = link.taken_out(text)
+    settings, remark = _link_taken_out(text)
     wanted = changes(
         Change(places.boot_config, before, BLOCK.without(before), copied=True),
         *(Change(places.root / path, files[places.root / path], None) for path in (WANTED, UNIT, *GETTYS)),
@@ -171,3 +178,32 @@ def _taken(path: Path, module: str) -> str:
 def _text(files: Files, path: Path) -> str:
     content = files.get(path)
     return content if isinstance(content, str) else ""
+
+
+def _link_added(text: str | None) -> tuple[str | None, str]:
+    """The text with a link on the port, and a note for the user if the link cannot be added."""
+    if text is None:
+        return None, f"there is no such file; {_BY_HAND}"
+    try:
+        if any(link.serial == PORT for link in parse(text, "rotator.toml").link):
+            return text, ""
+        longer = LINK_BLOCK.into(text, LINK_LINES)
+        parse(longer, "rotator.toml")
+    except (ConfigError, SetupError):
+        return text, f"it stays unchanged, because it has a fault or its marks are damaged; {_BY_HAND}"
+    return longer, ""
+
+
+def _link_taken_out(text: str | None) -> tuple[str | None, str]:
+    """The text without the link, and a note if the link stays."""
+    if text is None:
+        return None, ""
+    if LINK_BLOCK.strangers(text):
+        return text, "its link on /dev/ttyGS0 has been changed since, so it stays; without the port it only waits"
+    try:
+        shorter = LINK_BLOCK.without(text)
+        if shorter != text:
+            parse(shorter, "rotator.toml")
+    except (ConfigError, SetupError):
+        return text, "its link on /dev/ttyGS0 stays: without it the file could not be read"
+    return shorter, ""

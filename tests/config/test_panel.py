@@ -8,7 +8,7 @@ import pytest
 from pydantic import ValidationError
 
 from hw.sensors.switches import LIMITS
-from rotator.config.descriptions import describe
+from rotator.config.keys import describe
 from rotator.config.panel import LAMPS, LimitsTable, PanelTable
 from rotator.panel.panel import LAMPS as PANEL_LAMPS
 
