@@ -86,7 +86,6 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.kinds
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
-	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.clients
 	$(BIN)/python -m benchmarks.page
 
@@ -106,10 +105,9 @@ planted: $(VENV)/.dev
 sectors: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.sectors --moves $(or $(MOVES),10000) $(if $(SEED),--seed $(SEED))
 
-# The busy box for an hour in real time, or HOURS, then 24 simulated hours: memory, files and threads must stay.
+# The busy box for an hour in real time, or HOURS: memory, files and threads must stay.
 soak: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.soak --hours $(or $(HOURS),1)
-	$(BIN)/python -m benchmarks.soak --compressed
 
 # Do the tests see a change of the source? Once a week; SAMPLE=20 tries twenty places a file, FILES some files.
 mutants: $(VENV)/.mutants

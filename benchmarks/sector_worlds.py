@@ -62,10 +62,6 @@ class Outcome:
     moves: Counter[str] = field(default_factory=Counter)
     """The kinds of orders that it had, and how often."""
     reached: int = 0
-    with_s: float = 0.0
-    """The time of the ways to all places that were reached."""
-    without_s: float = 0.0
-    """The time of the same ways, at the same speeds, without sectors."""
 
 
 class World:
@@ -196,8 +192,6 @@ class World:
             self.run(0.5)
             if self.off_deg(place) < NEAR_DEG:
                 self.outcome.reached += 1
-                self.outcome.with_s += self.clock() - began_s
-                self.outcome.without_s += self._straight_s(began, self.world.shafts())
                 return
         status = self.loop.status
         if not self._can_reach(began, place):

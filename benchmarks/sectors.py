@@ -1,4 +1,4 @@
-"""Whether the antenna keeps out of forbidden sectors, and what going round costs: run `python -m benchmarks.sectors`.
+"""Whether the antenna keeps out of forbidden sectors, on any way: run `python -m benchmarks.sectors`.
 
 Lives of orders in the random worlds of `sector_worlds`: free places, streams, passes that are known beforehand, waiting
 where they will rise, jogs, parks, a panel, restarts of the program with the world going on. `--moves N`: so many in
@@ -35,9 +35,7 @@ def orders(world: World) -> Iterator[None]:
     """A life of orders; each `next` is one chapter of it."""
     draw = world.random
     while True:
-        chapter = draw.choice(
-            ["reach", "reach", "reach", "stream", "known", "jog", "park", "hurry", "panel", "restart"]
-        )
+        chapter = draw.choice(CHAPTERS)
         world.outcome.moves[chapter] += 1
         match chapter:
             case "reach":
@@ -129,17 +127,16 @@ def main() -> None:
 
 
 def tell(outcomes: dict[str, list[Outcome]]) -> None:
-    print("rotor | worlds | moves | inside a sector | free places reached | missed | time against no sector")
-    print("--|--|--|--|--|--|--")
+    print("rotor | worlds | moves | inside a sector | free places reached | missed")
+    print("--|--|--|--|--|--")
     moves: Counter[str] = Counter()
     for profile, some in outcomes.items():
         mine = sum((each.moves for each in some), Counter())
         moves += mine
         inside, missed = [each for each in some if each.inside], [each for each in some if each.missed]
         reached = sum(each.reached for each in some)
-        ratio = sum(each.with_s for each in some) / max(1e-9, sum(each.without_s for each in some))
         cells = profile, len(some), mine.total(), len(inside), reached, sum(len(each.missed) for each in missed)
-        print(*cells, f"{ratio:.2f}", sep=" | ")
+        print(*cells, sep=" | ")
         for each in inside:
             print(f"  seed {each.seed}: {each.inside}")
         for each in missed:

@@ -1,7 +1,8 @@
 """The box of a drill: the real drivers on simulated chips, the control loop and sessions, in simulated time.
 
-Knows how to build it, to run a cycle, to hand bytes to a link, and to end it: properly, as with
-SIGTERM, or killed. The simulated world and the state folder outlive it. Does not know what is right or wrong.
+Knows how to build it, to run a cycle, to hand bytes to a link, and to end it: properly, as with SIGTERM, or killed. Its
+sentinel opens no relay: a drill in which it would have killed the program has shown a bug. The simulated world and the
+state folder outlive it. Does not know what is right or wrong.
 """
 
 from __future__ import annotations
@@ -11,10 +12,8 @@ from collections.abc import Callable
 from functools import partial
 
 from benchmarks.drills.browser import Browser
-from benchmarks.drills.card import STATE, Card
-from benchmarks.drills.lanes import StateLane
+from benchmarks.drills.card import STATE, Card, StateLane
 from benchmarks.drills.script import PAGE, Drill
-from benchmarks.drills.sentinel import DrilledSentinel
 from benchmarks.drills.speech import PROTOCOLS
 from benchmarks.drills.tracking import DrilledTracking
 from firmware_sim.clock import SimClock
@@ -43,6 +42,28 @@ from rotator.runtime.loop import ControlLoop
 from rotator.store import counts
 from rotator.store.latch import KeptLatch
 from rotator.store.state import State
+
+SILENCE_S = 0.7
+"""Seconds of silence after which the real sentinel opens the relays (docs/safety.md)."""
+
+
+class DrilledSentinel:
+    def __init__(self, clock: SimClock) -> None:
+        self._clock = clock
+        self._leased_s: float | None = None
+        """When a lease was last renewed; None: all relays are open."""
+
+    def renew(self) -> None:
+        self._leased_s = self._clock()
+
+    def rest(self) -> None:
+        self._leased_s = None
+
+    @property
+    def kills(self) -> bool:
+        """Whether the program has been silent for too long while a relay is closed."""
+        return self._leased_s is not None and self._clock() > self._leased_s + SILENCE_S
+
 
 SENTINEL_S = 0.04
 """Seconds after the death of the program until its sentinel has opened the relays (docs/safety.md)."""

@@ -9,9 +9,8 @@ import random
 
 from benchmarks.drills.boxes import KINDS, ROTORS, draw_mast
 from benchmarks.drills.browser import draw_browser
-from benchmarks.drills.mishaps import trouble
 from benchmarks.drills.mounts import mounted, sensed
-from benchmarks.drills.outages import draw_outages
+from benchmarks.drills.outages import draw_outages, trouble
 from benchmarks.drills.script import Drill
 from benchmarks.drills.stories import stories
 

@@ -12,11 +12,9 @@ from dataclasses import replace
 
 from benchmarks.drills.aim_angles import AimAngles
 from benchmarks.drills.front_panel import STILL_AT_MOST_S, FrontPanel
-from benchmarks.drills.goals import AxisOrders, Goal, Ranges
-from benchmarks.drills.held_button import AT_END, BUTTON, HeldButton
-from benchmarks.drills.held_off import HeldOff
+from benchmarks.drills.goals import AT_END, BUTTON, AxisOrders, Goal, HeldButton, Ranges
+from benchmarks.drills.held_off import HeldOff, Silenced
 from benchmarks.drills.script import LINKS, PAGE, PANEL, PEOPLE, Event
-from benchmarks.drills.silenced import Silenced
 from benchmarks.drills.stops import Stops
 from benchmarks.drills.tracked import Tracked
 
@@ -74,8 +72,6 @@ class InForce:
         """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
         self._held_off = HeldOff()
-        self._modes = False
-        """A person on the page has set a mode, which may hold a storm park back."""
         self._modes_known_s = STILL_AT_MOST_S
         """Until this moment the first reading of a panel's mode switch may end a person's hold of the antenna."""
         self.sure = False
@@ -118,7 +114,6 @@ class InForce:
         self.ended_at_s = now_s
         self._aims.shifted = False
         self._held_off.forget()
-        self._modes = False
         self._modes_known_s = now_s + STILL_AT_MOST_S
         self._tracked.begin_anew()
 

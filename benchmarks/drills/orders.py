@@ -10,8 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from benchmarks.drills.goals import ZENITH_DEG, Goal
-from benchmarks.drills.held_button import BUTTON, PANEL_S
+from benchmarks.drills.goals import BUTTON, PANEL_S, ZENITH_DEG, Goal
 from benchmarks.drills.in_force import AXES, PUT_OFF_S, UNCALIBRATED_S, InForce
 from benchmarks.drills.script import PAGE, PANEL, PEOPLE, Event
 
@@ -41,7 +40,7 @@ class Orders(InForce):
         else:
             self._note_order(event)
         self._note_flights(event)
-        free = not self._held and not self.stops.storm_under_way and self._panel.mode == "auto" and self._panel.settled
+        free = not self._held and not self.stops.stormed and self._panel.mode == "auto" and self._panel.settled
         if event.what == "aim" and event.who != PAGE:
             self.sure = self.sure or (free and not self._held_off.perhaps)
         self._held_off.note(event, free=free and event.at_s >= self._modes_known_s)
@@ -53,7 +52,7 @@ class Orders(InForce):
         ) and self._panel.settled  # a switch that turns now may release it
         if event.what == "track" and event.text(0) != "off" and refused:
             return
-        free = self._panel.mode == "auto" and self._panel.settled and not self._held and not self.stops.storm_under_way
+        free = self._panel.mode == "auto" and self._panel.settled and not self._held and not self.stops.stormed
         free = free and not self._held_off.perhaps
         self._tracked.note(event, takes=free and not self.lacking and not self._counts)
 
@@ -65,14 +64,11 @@ class Orders(InForce):
             case "resume":
                 self._release(event.at_s)
             case "storm":
-                if self._panel.mode != "park":
-                    self.stops.order_anew()
                 if not self._held:
                     # An antenna that must be homed first cannot park: its present motion goes on.
                     if not self._counts:
                         self._forget(event.at_s)
-                    free = self._panel.mode == "auto" and self._panel.settled and not self._modes
-                    self.stops.begin_storm(event.at_s, holds=free and not self._counts)
+                    self.stops.begin_storm()
                     for axis in AXES:
                         self._aims.aim(event, axis, (self._park_deg[axis],))
             case "home":
@@ -84,8 +80,6 @@ class Orders(InForce):
                 homes = any(orders.homes for orders in self.axes.values())
                 if self._confirms and not self.stops.storm_under_way and not homes and not turned:
                     self._end(event.text(0), event.at_s)
-            case _ if self.stops.storm_holds:
-                pass
             case _:
                 self._note_order(event)
 
@@ -97,8 +91,6 @@ class Orders(InForce):
                 pass  # a person at the panel who holds a jog switch goes on jogging
             case "take" | "mode":
                 self._forget(event.at_s)
-                self.stops.take()
-                self._modes = self._modes or event.what == "mode"
             case "hold" if event.text(0) == "off":
                 self.button.let_go(event.at_s)
             case "hold":

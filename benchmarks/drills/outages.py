@@ -1,8 +1,8 @@
-"""Failures around the box: a program that is killed or ends again and again, a card that refuses or hangs, files that
-are changed under the box, a bus that hangs as the program begins, a page that hangs.
+"""What goes wrong in a drill: troubles of the world, each with its end, and failures around the box.
 
-Drawn with a random stream of its own, so that the rest of the drill stays the same. Knows how often each failure
-happens. Does not judge.
+A program that is killed or ends again and again, a card that refuses or hangs, files that are changed under the box, a
+bus that hangs as the program begins, a page that hangs: drawn with a random stream of its own. Knows which trouble
+which kind of rotor can have, and how often each failure happens. Does not judge.
 """
 
 from __future__ import annotations
@@ -11,7 +11,49 @@ import random
 
 from benchmarks.drills.boxes import BOTH, Mast
 from benchmarks.drills.card import HANGS, NAMES, REFUSES, REFUSES_LATER, WAYS, WORKS
-from benchmarks.drills.script import CLOCK, LINKS, PEOPLE, PROGRAM, WORLD, Event
+from benchmarks.drills.script import CLOCK, LINKS, PEOPLE, PROGRAM, WORLD, Arg, Event
+
+BADS = ("zero", "full", "far", "near", "last")
+Happening = tuple[Arg, ...]
+
+
+def trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening], tuple[str, *Happening] | None]:
+    rotor, axis = mast.rotor, chance.choice(BOTH)
+    choices = ["fault", "fault"]
+    if rotor.relays:
+        choices += ["weld", "weld", "pace", "push", "sticks"]
+    if mast.has_pots:
+        choices += ["every", "burst", "noise", "drift", "stands"]
+    if rotor.sporadic or rotor.shared_sporadic:
+        choices += ["sporadic", "sporadic"]
+    match chance.choice(choices):
+        case "weld":
+            return ("weld", axis, float(chance.choice((-1, 1)))), ("unweld", axis)
+        case "pace":
+            return ("pace", axis, chance.uniform(0.3, 1.5)), ("pace", axis, 1.0)
+        case "sticks":
+            return ("sticks", axis, chance.uniform(0.02, 0.15)), ("sticks", axis, 0.0)
+        case "push":
+            return ("push", axis, chance.choice((-1, 1)) * chance.uniform(0.05, 0.5)), ("push", axis, 0.0)
+        case "every":
+            return ("every", axis, float(chance.randrange(2, 33)), chance.choice(BADS)), ("every", axis, 0.0, "zero")
+        case "burst":
+            return ("burst", axis, chance.uniform(0.05, 3.0), chance.choice(BADS)), None
+        case "noise":
+            return ("noise", axis, chance.uniform(0.1, 1.0)), ("noise", axis, 0.0)
+        case "drift":
+            return ("drift", axis, chance.uniform(-0.1, 0.1), chance.uniform(1.0, 10.0)), None
+        case "stands":
+            return ("stands", axis, 1.0), ("stands", axis, 0.0)
+        case "sporadic":
+            name = chance.choice([*(f"{axis}-{name}" for name in rotor.sporadic), *rotor.shared_sporadic])
+            return ("fault", f"{name}:{chance.randrange(2, 40)}"), ("clear", name)
+    names = [f"{axis}-{name}" for name in rotor.faults] + list(rotor.shared)
+    if mast.has_switches:
+        names += [f"{axis}-low-switch-open", f"{axis}-high-switch-open"]
+    name = chance.choice(names)
+    return ("fault", name), ("clear", name)
+
 
 LOOPS, CARDS, FILES, BUSES, PAGES = 0.1, 0.2, 0.06, 0.04, 0.06
 """The shares of drills with each of these failures."""

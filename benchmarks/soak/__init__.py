@@ -1,1 +1,1 @@
-"""A soak: a busy box for an hour in real time, and 24 hours of passes in simulated time, both with flat memory."""
+"""A soak: a busy box for an hour in real time, with flat memory."""

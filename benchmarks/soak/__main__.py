@@ -1,4 +1,4 @@
-"""Run `python -m benchmarks.soak`: a busy box for an hour in real time. With --compressed: 24 simulated hours instead.
+"""Run `python -m benchmarks.soak`: a busy box for an hour in real time.
 
 Prints a table of figures; exit code 1, with what is wrong, when memory or files grow, a thread is lost, a relay is on
 without an order or at the end, or a link no longer answers.
@@ -12,25 +12,20 @@ import json
 import random
 import sys
 
-from benchmarks.soak import compressed, real, soaked
+from benchmarks.soak import real, soaked
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
-    parser.add_argument("--hours", type=float, help="how long; 1 in real time, 24 compressed")
+    parser.add_argument("--hours", type=float, default=1.0)
     parser.add_argument("--minutes", type=float, help="the same in minutes")
-    parser.add_argument("--compressed", action="store_true", help="passes in simulated time, in this process")
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(1 << 31))
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     given = parser.parse_args()
-    hours = given.minutes / 60 if given.minutes else given.hours or (24.0 if given.compressed else 1.0)
+    hours = given.minutes / 60 if given.minutes else given.hours
     print(f"seed {given.seed}", file=sys.stderr)
-    if given.compressed:
-        flown = compressed.soak(hours, given.seed)
-        figures, found = compressed.figures(flown), flown.found
-    else:
-        seen = asyncio.run(real.soak(3600 * hours, given.seed))
-        figures, found = soaked.figures(seen), seen.found
+    seen = asyncio.run(real.soak(3600 * hours, given.seed))
+    figures, found = soaked.figures(seen), seen.found
     if given.json:
         print(json.dumps({"figures": figures, "found": found}, indent=2))
     else:

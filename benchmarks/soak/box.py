@@ -17,8 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from benchmarks.fuzz_box import PATIENCE_S, free_port
-from benchmarks.fuzz_box import Box as FuzzedBox
-from benchmarks.soak.words import FUZZED, LATITUDE_DEG, LONGITUDE_DEG, WORDS, Words
+from benchmarks.soak.words import LATITUDE_DEG, LONGITUDE_DEG, WORDS, Words
 from firmware_sim import world_file
 from firmware_sim.world_file import WorldState
 from rotator.protocols.pstrotator import ANSWERS_ABOVE
@@ -51,7 +50,7 @@ lamp_stop = 8
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """What the process holds while only hostile bytes come."""
+    """What the process holds while nobody gives an order."""
 
     at_s: float
     """Since the start of the soak."""
@@ -75,8 +74,6 @@ class Box:
     folder: Path
     ports: dict[str, int] = field(default_factory=dict)
     """By protocol; TCP and UDP."""
-    fuzzed: tuple[FuzzedBox, ...] = ()
-    """The links under fire, one each."""
     process: subprocess.Popen[bytes] | None = None
     serial: int = -1
     """Our end of the line whose other end is the box's serial port."""
@@ -111,11 +108,6 @@ class Box:
             self.ports[words.protocol] = free_port()
         text = f'[state]\npath = "{self.folder}/state.json"\n[sim]\nworld = "{self.folder}/world.json"\n' + CONFIG
         text += "".join(self._link(words, os.ttyname(line)) for words in WORDS)
-        for protocol, read_only in FUZZED.items():
-            under_fire = FuzzedBox(read_only, self.folder, {protocol: free_port()})
-            self.fuzzed += (under_fire,)
-            text += f'[[link]]\nname = "fuzzed-{protocol}"\nprotocol = "{protocol}"\n'
-            text += f'tcp = "127.0.0.1:{under_fire.ports[protocol]}"\nread_only = {str(read_only).lower()}\n'
         config = self.folder / "rotator.toml"
         config.write_text(text)
         self.terminal, screen = os.openpty()

@@ -11,7 +11,6 @@ import random
 import time
 from contextlib import suppress
 
-from benchmarks.fuzz import client as hostile_client
 from benchmarks.soak.box import Box
 from benchmarks.soak.programs import program
 from benchmarks.soak.words import WORDS
@@ -44,7 +43,6 @@ class Crowd:
         self.unanswered: list[str] = []
         self.answers = 0
         self.orders = 0
-        self.sent_by_hostile_b = 0
 
     async def work(self, bout: int, until_s: float) -> None:
         """One bout. Three links track at a time, mostly the same satellite; now and then each another one."""
@@ -59,15 +57,6 @@ class Crowd:
             group.create_task(self._watcher(until_s, reads=True))
             group.create_task(self._watcher(until_s, reads=False))
             group.create_task(self._terminal(until_s, blocked=bout % 3 == 0))
-
-    async def hostile(self, until_s: float, *, read_only: bool) -> None:
-        """Hostile bytes on the links that are read_only, or on those that are not."""
-        under_fire = [each for each in self._box.fuzzed if each.read_only is read_only]
-        before_b = sum(each.sent for each in under_fire)
-        chances = [random.Random(self._chance.random()) for _ in under_fire]
-        clients = zip(under_fire, chances, strict=True)
-        await asyncio.gather(*(hostile_client(each, chance, until_s) for each, chance in clients))
-        self.sent_by_hostile_b += sum(each.sent for each in under_fire) - before_b
 
     async def _program(self, protocol: str, flight: Pass | None, until_s: float) -> None:
         """Asks all along; with a flight it tracks it too, from somewhere in its middle."""

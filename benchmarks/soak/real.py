@@ -1,8 +1,8 @@
-"""The running box in real time: every link busy, hostile bytes on four, and quiet moments in which it is measured.
+"""The running box in real time: every link busy, and quiet moments in which it is measured.
 
-A bout is busy for a while; then everything that gives orders leaves, the box is stopped, and only the hostile bytes on
-read_only links go on. In that quiet no relay may be on, each link must answer, and memory, files and threads are read.
-At the end each link must still turn the antenna. Relays and motors are read from the simulated world's own file.
+A bout is busy for a while; then everything that gives orders leaves, and the box is stopped. In that quiet no relay may
+be on, each link must answer, and memory, files and threads are read. At the end each link must still turn the antenna.
+Relays and motors are read from the simulated world's own file.
 """
 
 from __future__ import annotations
@@ -71,21 +71,17 @@ async def _bouts(box: Box, seed: int, seconds: float, seen: Soaked) -> None:
         crowd = Crowd(box, random.Random(f"{seed} {bout}"))
         ends_s = time.monotonic() + BUSY_S
         quiet_ends_s = ends_s + COASTS_S + QUIET_S
-        async with asyncio.TaskGroup() as group:
-            group.create_task(crowd.hostile(quiet_ends_s, read_only=True))
-            group.create_task(crowd.hostile(ends_s, read_only=False))
-            await crowd.work(bout, ends_s)
-            await box.says(*READY)
-            await _stop(box)
-            await asyncio.sleep(COASTS_S)
-            seen.found += await _stands(box, quiet_ends_s)
+        await crowd.work(bout, ends_s)
+        await box.says(*READY)
+        await _stop(box)
+        await asyncio.sleep(COASTS_S)
+        seen.found += await _stands(box, quiet_ends_s)
         seen.found += crowd.unanswered
         for words in WORDS:
             if words.has and not await _heard(box, words.protocol, PATIENCE_S):
                 seen.found.append(f"no right answer on {words.protocol} in the quiet")
         seen.answers += crowd.answers
         seen.orders += crowd.orders
-        seen.hostile_b += crowd.sent_by_hostile_b
         if state.exists() and state.stat().st_mtime != changed:
             changed, seen.saved = state.stat().st_mtime, seen.saved + 1
         # What left has left: the box closes what it held for the last of them.

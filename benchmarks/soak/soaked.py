@@ -28,7 +28,6 @@ class Soaked:
     lasted_s: float = 0.0
     answers: int = 0
     orders: int = 0
-    hostile_b: int = 0
     relay_starts: int = 0
     saved: int = 0
     """How often the state file was written."""
@@ -90,7 +89,7 @@ def figures(seen: Soaked) -> dict[str, str]:
     first, last = settled[0], settled[-1]
     return {
         "time on the running box": f"{seen.lasted_s / 3600:.2f} h",
-        "links, of them under hostile bytes": f"{len(WORDS)} protocols and 4 more; {seen.hostile_b / 1e6:.0f} MB",
+        "links": f"{len(WORDS)} protocols",
         "questions answered": f"{seen.answers}",
         "orders of passes": f"{seen.orders}",
         "motor starts": f"{seen.relay_starts}",

@@ -119,5 +119,3 @@ WORDS = (
 """Every protocol of the box, each on a link of its own."""
 STOP = b"S\n"
 """On the rotctld link: everything stops, and faults are acknowledged."""
-FUZZED = {"gs232b": True, "rotctld": True, "easycomm2": False, "md01": False}
-"""Further links under hostile bytes, by protocol; True: read_only."""

@@ -1,6 +1,6 @@
 """What a command may load before it works: on a small Pi each library costs a tenth of a second and more.
 
-Seconds differ from machine to machine; which modules are loaded does not. `python -m benchmarks.startup` has seconds.
+Seconds differ from machine to machine; which modules are loaded does not.
 """
 
 from __future__ import annotations
