@@ -10,13 +10,14 @@ changed.
 from __future__ import annotations
 
 import asyncio
-import socket
+import os
 import subprocess
 import sys
 import tempfile
 import time
-from pathlib import Path
 
+from benchmarks.load import resident_mib
+from benchmarks.stops import free_port, opened
 from rotator.box.app import App
 from rotator.config.load import parse
 
@@ -89,10 +90,6 @@ def main() -> None:
     print(f"resident: {before_mib:.1f} MiB after a quarter of the time, {after_mib:.1f} MiB at the end")
 
 
-def _last(edges: list[float], moment_s: float) -> float:
-    return max((at_s for at_s in edges if at_s < moment_s), default=0.0)
-
-
 def _share(values: list[float], share: float) -> float:
     return sorted(values)[int(share * (len(values) - 1))]
 
@@ -102,7 +99,7 @@ async def _reference() -> list[float]:
         while await reader.readline():
             writer.write(b"235.00\n25.00\n")
 
-    port = _free_port()
+    port = free_port()
     server = await asyncio.start_server(answer, "127.0.0.1", port)
     lines = await asyncio.to_thread(_crowd, port, "answers")
     server.close()
@@ -111,7 +108,7 @@ async def _reference() -> list[float]:
 
 async def _box() -> tuple[list[float], list[float], list[float], float, float, float]:
     with tempfile.TemporaryDirectory() as folder:
-        port = _free_port()
+        port = free_port()
         app = App(parse(ROTOR.format(folder=folder, port=port), "benchmark"))
         assert app.station.world is not None
         stop = asyncio.Event()
@@ -126,18 +123,14 @@ async def _box() -> tuple[list[float], list[float], list[float], float, float, f
             status = app.loop.status
             late_ms[status.at_s] = 1000 * status.cycle_late_s
             if not before_mib and time.monotonic() - begun_s > LASTS_S / 4:
-                before_mib = _resident_mib()
+                before_mib = resident_mib(os.getpid())
             await asyncio.sleep(period_s / 4)
-        lines, after_mib = await crowd, _resident_mib()
+        lines, after_mib = await crowd, resident_mib(os.getpid())
         stop.set()
         await box
         pins = (app.config.relays.azimuth_cw, app.config.relays.azimuth_ccw)
-        offs = [edge.at_s for edge in app.station.world.gpio.edges if edge.offset in pins and not edge.level]
-        sent = [float(line.split()[1]) for line in lines if line.startswith("S ")]
-        ons = [edge.at_s for edge in app.station.world.gpio.edges if edge.offset in pins and edge.level]
-        # After a reversal a motor may still be resting when the stop comes: there is nothing to let go of then.
-        running = [at_s for at_s in sent if _last(ons, at_s) > _last(offs, at_s)]
-        stops_ms = [1000 * (min(off for off in offs if off >= moment) - moment) for moment in running]
+        edges = [(edge.at_s, edge.offset, edge.level) for edge in app.station.world.gpio.edges if edge.offset in pins]
+        stops_ms = opened([float(line.split()[1]) for line in lines if line.startswith("S ")], edges).after_ms
         return _milliseconds(lines), stops_ms, list(late_ms.values()), 1000 * period_s, before_mib, after_mib
 
 
@@ -153,17 +146,6 @@ def _crowd(port: int, kind: str) -> list[str]:
         check=True,
     )
     return done.stdout.splitlines()
-
-
-def _resident_mib() -> float:
-    status = Path("/proc/self/status").read_text()
-    return next(int(line.split()[1]) for line in status.splitlines() if line.startswith("VmRSS:")) / 1024
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 if __name__ == "__main__":

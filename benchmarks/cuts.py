@@ -91,9 +91,9 @@ def main(count: int, seed: int) -> None:
     seconds = 0.0
     with tempfile.TemporaryDirectory() as folder:
         for each in islice(drawn(random.Random(seed), LEAST_DEG), count):
-            found = flown(each.flown, Path(folder), dice)
+            found = flown(each, Path(folder), dice)
             lost, wrong, writes = lost + found[0], wrong + found[1], writes + found[2]
-            seconds += each.flown.end_s
+            seconds += each.end_s
     per_s = writes / seconds
     year_s = HOURS_A_DAY * 3600 * 365
     print(f"seed {seed}: {count} passes, {seconds / 60:.0f} minutes, {CUTS} cuts in each")

@@ -1,9 +1,9 @@
 """How well each kind of rotor points: run `python -m benchmarks.kinds`.
 
 The twelve passes flown in simulated time by each of the shipped configurations, on the simulated rotor of its kind,
-from whole degrees once a second; the moteus from hundredths too. Prints a Markdown table, with `--each` every flight
-beneath it; every figure is the same on every machine. A rotor without overlap has to turn right round on the three
-passes that cross north: those have rows of their own.
+from whole degrees once a second; the moteus from hundredths too. Prints a Markdown table; every figure is the same on
+every machine. A rotor without overlap has to turn right round on the three passes that cross north: those have rows of
+their own.
 """
 
 from __future__ import annotations
@@ -129,26 +129,9 @@ def markdown(flights: list[Flight]) -> str:
     return "\n".join(rows)
 
 
-def details(flights: list[Flight]) -> str:
-    rows = ["rotor | pass | rms | 95 % | worst | starts | beyond 10° | swings", "--|--|--|--|--|--|--|--"]
-    for flight in flights:
-        each = flight.summary
-        rows.append(
-            f"{flight.kind.name} | {flight.pass_name} | {each.rms_deg:.3f}° | {each.p95_deg:.3f}° "
-            f"| {each.max_deg:.2f}° | {each.relay_starts} | {flight.away_s:.1f} s | {flight.swings}"
-        )
-    return "\n".join(rows)
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--each", action="store_true", help="print every flight too")
-    asked = parser.parse_args()
-    flights = fly_all(KINDS, PASS_NAMES)
-    print(markdown(flights))
-    if asked.each:
-        print()
-        print(details(flights))
+    argparse.ArgumentParser(description=__doc__).parse_args()
+    print(markdown(fly_all(KINDS, PASS_NAMES)))
 
 
 if __name__ == "__main__":

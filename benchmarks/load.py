@@ -43,10 +43,10 @@ def load() -> tuple[float, float]:
         before = cpu_s(box.pid)
         time.sleep(LOAD_S)
         used_s = cpu_s(box.pid) - before
-        resident_mib = _resident_mib(box.pid)
+        held_mib = resident_mib(box.pid)
         box.terminate()
         box.wait()
-    return used_s / LOAD_S, resident_mib
+    return used_s / LOAD_S, held_mib
 
 
 class _Rotor(PlainRotor):
@@ -115,7 +115,7 @@ def reference_load() -> float:
 def bare_mib() -> float:
     bare = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
     time.sleep(0.5)
-    size = _resident_mib(bare.pid)
+    size = resident_mib(bare.pid)
     bare.kill()
     bare.wait()
     return size
@@ -126,7 +126,7 @@ def cpu_s(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def _resident_mib(pid: int) -> float:
+def resident_mib(pid: int) -> float:
     for line in Path(f"/proc/{pid}/status").read_text().splitlines():
         if line.startswith("VmRSS:"):
             return int(line.split()[1]) / 1024

@@ -93,7 +93,6 @@ def main() -> None:
     parser.add_argument("--turns-back", action="store_true")
     parser.add_argument("--machines", nargs="+", choices=SEAMS, default=list(SEAMS), metavar="M")
     parser.add_argument("--via", nargs="+", choices=VIAS, default=VIAS, metavar="V")
-    parser.add_argument("--each", action="store_true")
     asked = parser.parse_args()
     for machine in asked.machines:
         dice = random.Random(asked.seed)
@@ -110,8 +109,6 @@ def main() -> None:
                 trace, _ = fly(each, plant_maker(Kind(machine, machine, via).config(), via=via))
                 costs.append(integral_deg_s(trace))
                 aways.append(away_s(trace))
-                if asked.each:
-                    print(f"  {via}, {each.name}: {costs[-1]:.0f}° s, beyond 10° for {aways[-1]:.1f} s", flush=True)
             print(f"{machine} {via}: {mean(costs):.0f}° s, beyond 10° for {mean(aways):.1f} s", flush=True)
 
 

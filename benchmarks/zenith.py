@@ -2,20 +2,19 @@
 
 Passes at random stations and moments that culminate at 85° to 90°, on the shipped G-5500 (450° by 180°) with flip on:
 known beforehand (`--via track`), and as a stream of whole degrees to a box that knows no satellites. Errors are those
-to the true satellite, the stream's those to the true path that it is rounded from. `--each` prints every pass.
+to the true satellite, the stream's those to the true path that it is rounded from.
 """
 
 from __future__ import annotations
 
-import argparse
 import math
 import random
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 
+from benchmarks.numbers import numbers
 from benchmarks.recognition import catalogue
 from rotator.config.load import parse
 from rotator.orbits.earth import Site
@@ -32,13 +31,7 @@ WITHIN_S = 10 * 86_400.0
 CONFIG = "[azimuth]\nmax_deg = 450\n[elevation]\nmax_deg = 180\n[mount]\nflip = 'over-top'\n"
 
 
-@dataclass(frozen=True, slots=True)
-class Overhead:
-    flown: Pass
-    culmination_deg: float
-
-
-def drawn(dice: random.Random, least_deg: float = LEAST_DEG) -> Iterator[Overhead]:
+def drawn(dice: random.Random, least_deg: float = LEAST_DEG) -> Iterator[Pass]:
     """Passes at random stations, that culminate there or higher."""
     elements = catalogue(dice, SATELLITES)
     while True:
@@ -55,31 +48,18 @@ def drawn(dice: random.Random, least_deg: float = LEAST_DEG) -> Iterator[Overhea
         for second in range(int(found.los_s - found.aos_s) + 1):
             sight = satellite.sight(found.aos_s + second)
             rows.append((float(second), sight.azimuth_deg, sight.elevation_deg))
-        yield Overhead(Pass(satellite.name, tuple(rows)), found.highest.elevation_deg)
+        yield Pass(satellite.name, tuple(rows))
 
 
-def fly_one(each: Overhead, via: str) -> Summary:
-    return fly(each.flown, plant_maker(parse(CONFIG, "benchmark"), via=via))[1]
+def fly_one(flown: Pass, via: str) -> Summary:
+    return fly(flown, plant_maker(parse(CONFIG, "benchmark"), via=via))[1]
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("passes", type=int, nargs="?", default=PASSES)
-    parser.add_argument("seed", type=int, nargs="?", default=SEED)
-    parser.add_argument("--each", action="store_true")
-    asked = parser.parse_args()
-    wanted = list(islice(drawn(random.Random(asked.seed)), asked.passes))
+def main(count: int, seed: int) -> None:
+    wanted = list(islice(drawn(random.Random(seed)), count))
     with ProcessPoolExecutor() as pool:
         for via in ("track", "gs232"):
-            flown = []
-            for each, summary in zip(wanted, pool.map(partial(fly_one, via=via), wanted), strict=True):
-                flown.append(summary)
-                if asked.each:
-                    print(
-                        f"{via:5} {each.flown.name:8} up to {each.culmination_deg:.1f}°: {summary.rms_deg:5.2f}° rms, "
-                        f"{summary.max_deg:5.1f}° at most, {summary.relay_starts} starts",
-                        flush=True,
-                    )
+            flown = list(pool.map(partial(fly_one, via=via), wanted))
             worst = [summary.max_deg for summary in flown]
             print(
                 f"{via}: {sum(s.rms_deg for s in flown) / len(flown):.2f}° rms, worst {max(worst):.1f}°, "
@@ -89,4 +69,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(*numbers(__doc__, passes=PASSES, seed=SEED))
