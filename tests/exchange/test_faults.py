@@ -6,36 +6,19 @@ import pytest
 
 from hw.ports import Axis
 from rotator.exchange.faults import Fault, FaultKind, Missing
-from rotator.exchange.orders import Order
-from rotator.exchange.sources import Refusal
-from rotator.exchange.status import AxisStatus, Status
+from rotator.exchange.status import AxisStatus
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
+from tests.protocols.fed import Notebook
 
 EACH = pytest.mark.parametrize("kind", FaultKind, ids=lambda kind: kind.text)
 FAULT_BIT = 8
 """Of EasyComm's status register."""
 
 
-class Standing:
-    """A box that stands there with this status, and takes no orders."""
-
-    def __init__(self, azimuth: AxisStatus) -> None:
-        self._status = Status(0.0, azimuth, AxisStatus(0.0, 180.0, angle_deg=10.0))
-
-    def status(self) -> Status:
-        return self._status
-
-    def note_refused(self, _refused: Refusal | bytes) -> None:
-        """Nobody reads the log here."""
-
-    def order(self, order: Order) -> Refusal | None:
-        return Refusal(f"not here: {order}")
-
-
 def answers(azimuth: AxisStatus) -> tuple[int, int]:
     """What EasyComm III answers to GS and GE."""
-    state, errors = EasycommSession(Standing(azimuth), Level.III).receive(b"GS\nGE\n")
+    state, errors = EasycommSession(Notebook(azimuth), Level.III).receive(b"GS\nGE\n")
     return int(state.decode().removeprefix("GS")), int(errors.decode().removeprefix("GE"))
 
 

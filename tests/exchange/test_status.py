@@ -8,9 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from rotator.exchange.orders import Order
-from rotator.exchange.sources import Refusal
-from rotator.exchange.status import AxisStatus, Status
+from rotator.exchange.status import AxisStatus
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
@@ -18,28 +16,15 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
+from tests.protocols.fed import Notebook
 
 
-class Standing:
+def standing(azimuth_deg: float, elevation_deg: float, noise_deg: float = 0.1) -> Notebook:
     """A box whose axes read these angles."""
-
-    def __init__(
-        self, azimuth_deg: float, elevation_deg: float, noise_deg: float = 0.1, max_deg: float = 360.0
-    ) -> None:
-        self._status = Status(
-            0.0,
-            AxisStatus(0.0, max_deg, angle_deg=azimuth_deg, noise_deg=noise_deg),
-            AxisStatus(0.0, 90.0, angle_deg=elevation_deg, noise_deg=noise_deg),
-        )
-
-    def status(self) -> Status:
-        return self._status
-
-    def note_refused(self, _refused: Refusal | bytes) -> None:
-        """Nobody reads the log here."""
-
-    def order(self, _order: Order) -> Refusal | None:
-        raise AssertionError("nothing is ordered here")
+    return Notebook(
+        AxisStatus(0.0, 360.0, angle_deg=azimuth_deg, noise_deg=noise_deg),
+        AxisStatus(0.0, 90.0, angle_deg=elevation_deg, noise_deg=noise_deg),
+    )
 
 
 SESSIONS: dict[str, tuple[Callable[[Box], Session], bytes]] = {
@@ -64,7 +49,7 @@ def told(name: str, box: Box) -> list[float]:
 def test_noise_on_the_horizon_has_no_sign(name: str) -> None:
     scatter = random.Random(1)
     for _ in range(2000):
-        box = Standing(scatter.gauss(0.0, 0.1), scatter.gauss(0.0, 0.1))
+        box = standing(scatter.gauss(0.0, 0.1), scatter.gauss(0.0, 0.1))
         for angle_deg in told(name, box):
             assert 0.0 <= angle_deg < 1.0, "neither below the end nor a turn away from it"
 
@@ -72,7 +57,7 @@ def test_noise_on_the_horizon_has_no_sign(name: str) -> None:
 @pytest.mark.parametrize("name", ["rotctld", "easycomm", "easycomm for PstRotator", "pstrotator", "console"])
 @pytest.mark.parametrize(("noise_deg", "angle_deg"), [(0.1, -0.6), (0.02, -0.2), (0.1, -3.0), (0.0, -0.1)])
 def test_an_antenna_below_its_end_is_told_below(name: str, noise_deg: float, angle_deg: float) -> None:
-    assert told(name, Standing(90.0, angle_deg, noise_deg))[1] == pytest.approx(angle_deg, abs=0.051)
+    assert told(name, standing(90.0, angle_deg, noise_deg))[1] == pytest.approx(angle_deg, abs=0.051)
 
 
 @pytest.mark.parametrize(("noise_deg", "angle_deg", "shown_deg"), [

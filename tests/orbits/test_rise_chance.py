@@ -121,25 +121,9 @@ def test_a_stream_above_the_horizon_begins_with_no_rise() -> None:
     assert rise_chance(SampledPath(Rises()), orders, CLOCKS_S, 1.0) == 1.0
 
 
-@pytest.mark.parametrize("rounding", [1.0, 0.1])
-def test_the_chance_of_a_beginning_at_a_rise_counts_its_seconds_and_degrees(rounding: float) -> None:
-    rises_s = 0.2 / ELEVATION_DPS
-    expected = (11.5 + rises_s) / 10_800.0 * (1.5 * rounding + 0.14 + rises_s * AZIMUTH_DPS) / 360.0
-    found = rise_chance(SampledPath(Rises()), stands(90.0, 0.0, 8.0), CLOCKS_S, rounding)
-    assert found == pytest.approx(expected)
-
-
 def leaves(azimuth_deg: float, at_s: float, rounding: float = 1.0) -> list[Heard]:
     """The elevation leaves zero at this second."""
     return [Heard(at_s - 1.0, azimuth_deg, 0.0), Heard(at_s, azimuth_deg, rounding)]
-
-
-@pytest.mark.parametrize("rounding", [1.0, 0.1])
-def test_the_chance_of_leaving_the_horizon_with_a_satellite_counts_its_seconds_and_degrees(rounding: float) -> None:
-    between_s = 1.0 + 0.14 / ELEVATION_DPS
-    expected = (11.5 + between_s) / 10_800.0 * (1.5 * rounding + 0.14 + between_s * AZIMUTH_DPS) / 360.0
-    orders = leaves(90.4 if rounding == 1.0 else 90.0, rounding / 2 / ELEVATION_DPS, rounding)
-    assert lift_off_chance(SampledPath(Rises()), orders, CLOCKS_S, rounding) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize(

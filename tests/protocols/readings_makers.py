@@ -21,6 +21,8 @@ WELL_FORMED = {
     "rot2prog": rb"W[\0-\x09]{4}\x02[\0-\x09]{4}\x02 ",
     "md01": rb"W[\0-\x09]{4}\x0a[\0-\x09]{4}\x0a ",
     "dcu1": rb";\d{3}|[ \d]\d?\d\.\d;",
+    "rc2800": rb"[AE] (P= *\d+\.\d S=9 [MS]|ERR=05)\r",
+    "prosistel": rb"\x02[AEB],[G?S],(R|E,00003|\d{3,4},[RB])\r",
 }
 
 NUMBERS = st.one_of(
@@ -140,3 +142,32 @@ def dcu1_motions(heard: bytes) -> list[Order]:
         if stops or (not text and command[2] == b";"):
             target = None
     return motions
+
+
+RC2800_PIECES = st.lists(
+    st.one_of(
+        st.binary(max_size=5),
+        st.sampled_from([b"A", b"E", b"S", b"75", b"75.5", b"10", b"\r", b"\r", b"\n", b"A20\r", b"E20.000000\r"]),
+    ),
+    max_size=16,
+)
+PROSISTEL_PIECES = st.lists(
+    st.one_of(
+        st.binary(max_size=5),
+        st.sampled_from([b"\x02A", b"\x02E", b"\x02B", b"G75", b"G999", b"?", b"S", b"\r", b"\r", b"\x02AG10\r"]),
+    ),
+    max_size=16,
+)
+
+
+def rc2800_motions(heard: bytes) -> list[Order]:
+    """Every whole line with an angle."""
+    found = re.findall(rb"(?:^|[\r\n])[^!-~]*([AE])(\d{1,3}(?:\.\d{0,6})?)(?=[\r\n])", heard)
+    return [Aim(float(number), None) if letter == b"A" else Aim(None, float(number)) for letter, number in found]
+
+
+def prosistel_motions(heard: bytes, elevation: bytes, per_degree: int) -> list[Order]:
+    """Every whole command that goes somewhere. `elevation`: the letter of this axis."""
+    found = re.findall(rb"\x02([A" + elevation + rb"])G(\d{1,4})(?=\r)", heard)
+    angles = [(letter, int(number) / per_degree) for letter, number in found]
+    return [Aim(deg, None) if letter == b"A" else Aim(None, deg) for letter, deg in angles]

@@ -15,12 +15,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotator.exchange.orders import Aim, Order
+from rotator.protocols import prosistel
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.prosistel import ProsistelSession
+from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
 from rotator.protocols.spid import Model
@@ -28,7 +31,13 @@ from rotator.protocols.spid_session import SpidSession
 from tests.protocols import readings_gs232, readings_makers, readings_rotctld
 from tests.protocols.fed import assert_not_kept, assert_well_formed
 from tests.protocols.readings_gs232 import ENDS, f1efw_motions, gs232_motions
-from tests.protocols.readings_makers import dcu1_motions, easycomm_motions, spid_motions
+from tests.protocols.readings_makers import (
+    dcu1_motions,
+    easycomm_motions,
+    prosistel_motions,
+    rc2800_motions,
+    spid_motions,
+)
 from tests.search import examples, some
 
 if TYPE_CHECKING:
@@ -113,6 +122,23 @@ SPOKEN = {
     "dcu1": Spoken(
         Dcu1Session, readings_makers.PIECES, readings_makers.WELL_FORMED["dcu1"], dcu1_motions, top_deg=540.0
     ),
+    "rc2800": Spoken(
+        Rc2800Session,
+        readings_makers.RC2800_PIECES,
+        readings_makers.WELL_FORMED["rc2800"],
+        rc2800_motions,
+        exactly=False,
+    ),
+    **{
+        f"prosistel-{model.name[0].lower()}": Spoken(
+            lambda box, model=model: ProsistelSession(box, model),  # type: ignore[misc]
+            readings_makers.PROSISTEL_PIECES,
+            readings_makers.WELL_FORMED["prosistel"],
+            partial(prosistel_motions, elevation=letter, per_degree=per_degree),
+            exactly=False,
+        )
+        for model, letter, per_degree in ((prosistel.Model.D, b"E", 1), (prosistel.Model.COMBI_TRACK, b"B", 10))
+    },
 }
 EACH = pytest.mark.parametrize("spoken", SPOKEN.values(), ids=SPOKEN)
 

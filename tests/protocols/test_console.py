@@ -25,8 +25,6 @@ from rotator.exchange.orders import (
     Stop,
     Take,
 )
-from rotator.exchange.sources import Refusal
-from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.console import (
     VERBS,
     Ask,
@@ -42,6 +40,7 @@ from rotator.protocols.console import (
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Session
+from tests.protocols.fed import Notebook
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -126,22 +125,6 @@ MISTAKES = [
     (b"confirm azimuth here", "'here' is no azimuth: degrees from -360 to 720"),
     (b"confirm elevation inf", "'inf' is no elevation: degrees from -90 to 210"),
 ]
-
-
-class Notebook:
-    """A box that takes every order; not every rotor does."""
-
-    def __init__(self) -> None:
-        self.orders: list[Order] = []
-
-    def status(self) -> Status:
-        return Status(0.0, AxisStatus(0.0, 450.0), AxisStatus(0.0, 180.0))
-
-    def note_refused(self, _refused: Refusal | bytes) -> None:
-        """Nobody reads the log here."""
-
-    def order(self, order: Order) -> None:
-        self.orders.append(order)
 
 
 @pytest.mark.parametrize(("line", "said"), CANONICAL)

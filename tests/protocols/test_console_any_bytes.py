@@ -17,10 +17,9 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
 from rotator.exchange.sources import Refusal
-from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.console import COMMANDS, VERBS
 from rotator.protocols.console_session import ConsoleSession
-from tests.protocols.fed import assert_not_kept
+from tests.protocols.fed import Notebook, assert_not_kept
 from tests.search import examples
 
 WELL_FORMED = re.compile(rb"(?:(?!ok\n|error: )[^\r\n]+\n)*ok\n|error: [^\r\n]+\n")
@@ -63,26 +62,16 @@ WAYS = {
 }
 
 
-class Notebook:
-    """A box that accepts every order, as few rotors do. A stop, a park and a let-go hold until a resume."""
+class Latching(Notebook):
+    """A stop, a park and a let-go hold until a resume."""
 
-    def __init__(self) -> None:
-        self.orders: list[Order] = []
-        self._status = Status(0.0, AxisStatus(0.0, 450.0), AxisStatus(0.0, 180.0))
-
-    def status(self) -> Status:
-        return self._status
-
-    def note_refused(self, _refused: Refusal | bytes) -> None:
-        """Nobody reads the log here."""
-
-    def order(self, order: Order) -> None:
-        self.orders.append(order)
+    def order(self, order: Order) -> Refusal | None:
         match order:
             case Stop() | Park() | LetGo():
-                self._status = replace(self._status, latched="console")
+                self.shown = replace(self.shown, latched="console")
             case Release():
-                self._status = replace(self._status, latched="")
+                self.shown = replace(self.shown, latched="")
+        return super().order(order)
 
 
 def number(text: bytes) -> float:
@@ -141,7 +130,7 @@ def held(orders: list[Order]) -> list[Order]:
 @settings(max_examples=examples(300), deadline=None)
 @given(pieces=PIECES)
 def test_every_line_has_one_answer_and_orders_are_what_was_said(pieces: list[bytes]) -> None:
-    box, heard = Notebook(), b"".join(pieces)
+    box, heard = Latching(), b"".join(pieces)
     session = ConsoleSession(box)
     answers = [answer for piece in pieces for answer in session.receive(piece)]
     lines = [line for line in re.split(rb"[\r\n]", heard)[:-1] if line.strip(b" \t")]
@@ -153,7 +142,7 @@ def test_every_line_has_one_answer_and_orders_are_what_was_said(pieces: list[byt
 @settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES)
 def test_pieces_make_no_difference(pieces: list[bytes]) -> None:
-    torn, whole = Notebook(), Notebook()
+    torn, whole = Latching(), Latching()
     in_pieces, at_once = ConsoleSession(torn), ConsoleSession(whole)
     replies = [reply for piece in pieces for reply in in_pieces.receive(piece)]
     assert at_once.receive(b"".join(pieces)) == replies
@@ -163,7 +152,7 @@ def test_pieces_make_no_difference(pieces: list[bytes]) -> None:
 @settings(max_examples=examples(100), deadline=None)
 @given(junk=st.binary(max_size=300))
 def test_a_stop_is_obeyed_after_any_bytes(junk: bytes) -> None:
-    box = Notebook()
+    box = Latching()
     session = ConsoleSession(box)
     session.receive(junk + b"\n")
     assert session.receive(b"stop\n") == [b"ok\n"]
@@ -171,6 +160,6 @@ def test_a_stop_is_obeyed_after_any_bytes(junk: bytes) -> None:
 
 
 def test_what_never_ends_is_not_kept() -> None:
-    session = ConsoleSession(Notebook())
+    session = ConsoleSession(Latching())
     packet = b"stop " * 800
     assert_not_kept(session, packet)

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from rotator.config.station import NO_PLACE
 from rotator.control.sky.timed_table import TimedTable
-from rotator.exchange.status import Status
 from rotator.protocols.console_session import MOST_TABLE_LINES, ConsoleSession
-
-if TYPE_CHECKING:
-    pass
-from tests.protocols.test_console import Feed, Notebook
+from tests.protocols.fed import Notebook
+from tests.protocols.test_console import Feed
 
 
 class Sky:
@@ -74,12 +70,10 @@ def test_without_a_place_nothing_is_tracked(feed: Feed) -> None:
 
 
 def test_while_a_stop_is_latched_nothing_is_tracked(feed: Feed) -> None:
-    class Stopped(Notebook):
-        def status(self) -> Status:
-            return replace(super().status(), latched="panel")
-
+    box = Notebook()
+    box.shown = replace(box.shown, latched="panel")
     sky = Sky()
-    session = ConsoleSession(Stopped(), tracking=sky)
+    session = ConsoleSession(box, tracking=sky)
     assert feed(session, b"track iss\n") == [b"error: stopped by the panel: nothing moves until resume\n"]
     assert feed(session, b"track off\n") == [b"ok\n"]
     assert sky.heard == ["off"]

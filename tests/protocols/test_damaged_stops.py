@@ -7,22 +7,18 @@ from typing import TYPE_CHECKING, get_args
 import pytest
 
 from hw.ports import Axis
-from rotator.assembly.sessions import session_maker
-from rotator.config.links import FOLLOW, Link, ProtocolName
+from rotator.config.links import FOLLOW, ProtocolName
 from rotator.exchange.orders import Order, Stop
 from rotator.links.udp import UdpLink
 from rotator.links.wire import Wire
-from rotator.orbits.celestial import Sky
-from rotator.orbits.earth import Site
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.pstrotator import PstRotatorSession
-from rotator.protocols.session import Session
+from tests.protocols.fed import connected
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
 
-SKY = Sky(Site(52.5, 13.4), lambda: 1_790_000_000.0)
 NO_STOP: tuple[ProtocolName, ...] = ("gs232-f1efw", "macdoppler", "wsjtx", "stellarium", FOLLOW)
 """These have no stop."""
 
@@ -77,13 +73,6 @@ OTHERS: dict[str, list[bytes]] = {
     "md01": [bytes.fromhex("57" + "00" * 10 + "1F20"), bytes.fromhex("57 30 39 36 37 02 30 38 37 34 02 2F 20")],
     "pstrotatoraz": [b"GET /?az=5 HTTP/1.1\r\nHost: 192.168.1.20\r\nReferer: http://192.168.1.20/?cmd=stop\r\n\r\n"],
 }  # fmt: skip
-
-
-def connected(protocol: str, box: BenchBox) -> Session:
-    places = {"pstrotator": "udp", "n1mm": "udp", "pstrotatoraz": "tcp"}
-    place = places.get(protocol, "pty")
-    address = "x" if place == "pty" else "127.0.0.1:5000"
-    return session_maker(Link.model_validate({"protocol": protocol, place: address}), box, sky=SKY)
 
 
 def stopped(orders: list[Order]) -> set[Axis]:

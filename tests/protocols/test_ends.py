@@ -17,7 +17,7 @@ from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
 from tests.boxes import free_port
-from tests.protocols.test_damaged_stops import connected
+from tests.protocols.fed import connected
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

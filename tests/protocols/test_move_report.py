@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hw.ports import AngleSource
-from rotator.exchange.orders import Order
-from rotator.exchange.sources import Refusal
-from rotator.exchange.status import AxisStatus, Status
+from rotator.exchange.status import AxisStatus
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.move_report import MoveReport
+from tests.protocols.fed import Notebook
 
 
-class Mast:
-    """A box whose status is set by hand."""
-
-    def __init__(self) -> None:
-        self.turns(235.0, moving=False)
+class Mast(Notebook):
+    """A box whose azimuth is set by hand."""
 
     def turns(self, azimuth_deg: float, *, moving: bool) -> None:
         azimuth = AxisStatus(0, 450, angle_deg=azimuth_deg, source=AngleSource.COUNTED, moving=moving)
-        self._status = Status(0.0, azimuth, AxisStatus(0, 180, angle_deg=25.0))
-
-    def status(self) -> Status:
-        return self._status
-
-    def note_refused(self, _refused: Refusal | bytes) -> None:
-        """Nobody reads the log here."""
-
-    def order(self, order: Order) -> Refusal | None:
-        raise AssertionError(order)
+        self.shown = replace(self.shown, azimuth=azimuth)
 
 
 def test_one_line_after_each_move_and_none_without_one() -> None:

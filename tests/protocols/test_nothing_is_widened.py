@@ -12,25 +12,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis
-from rotator.assembly.sessions import session_maker
-from rotator.config.links import FOLLOW, Link, ProtocolName
+from rotator.config.links import FOLLOW, ProtocolName
 from rotator.exchange.orders import Calibrate
-from rotator.orbits.celestial import Sky
-from rotator.orbits.earth import Site
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
+from tests.protocols.fed import connected
 from tests.search import examples
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
 
-_UDP = {"udp": "127.0.0.1:12000"}
-_TCP = {"tcp": "127.0.0.1:8080"}
-PLACES = {"pstrotator": _UDP, "n1mm": _UDP, "macdoppler": _UDP, "wsjtx": {"file": "azel.dat"}}
-PLACES |= {"stellarium": _TCP, "pstrotatoraz": _TCP}
-"""Where those are spoken that no pseudo-terminal carries."""
 PROTOCOLS = sorted(set(get_args(ProtocolName)) - {FOLLOW})
-SKY = Sky(Site(52.5, 13.4), lambda: 1.8e9)
 TEMPTING = st.sampled_from([
     *(b"O\r", b"F\r", b"O2\r", b"F2\r", b"P36\r", b"P45\r", b"Z\r", b"W450 180\r", b"M450\r", b"S\r", b"X1\r"),
     *(b"C min_az -180\n", b"C max_az 540\n", b"C max_el 210\n", b"C south_zero 1\n", b"\\set_conf max_az 540\n"),
@@ -53,17 +45,12 @@ def fixed(box: BenchBox) -> list[tuple[object, ...]]:
     return [(axis.min_deg, axis.max_deg, axis.calibration, axis.uncalibrated) for axis in axes]
 
 
-def spoken(protocol: str, **keys: object) -> Link:
-    where = PLACES.get(protocol, {"pty": "x"})
-    return Link.model_validate({"protocol": protocol, **where, **keys})
-
-
 @pytest.mark.parametrize("protocol", PROTOCOLS)
 @settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES)
 def test_no_bytes_change_limits_or_calibration(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     box = new_box((0.0, 360.0), (0.0, 90.0), at=(100, 20))
-    before, session = fixed(box), session_maker(spoken(protocol), box, sky=SKY)
+    before, session = fixed(box), connected(protocol, box)
     for piece in pieces:
         session.receive(piece)
         session.idle()
@@ -77,7 +64,7 @@ def test_no_bytes_change_limits_or_calibration(new_box: type[BenchBox], protocol
 @given(pieces=PIECES)
 def test_may_calibrate_changes_no_limit_either(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     box = new_box((0.0, 360.0), (0.0, 90.0))
-    session = session_maker(spoken(protocol, may_calibrate=True), box)
+    session = connected(protocol, box, may_calibrate=True)
     for piece in pieces:
         session.receive(piece)
     box.wait(0.2)
@@ -101,7 +88,7 @@ def test_nor_does_a_server_that_is_followed(new_box: type[BenchBox], pieces: lis
 
 def test_p45_is_one_connection_s_and_reaches_no_further_than_the_rotor(new_box: type[BenchBox]) -> None:
     box = new_box((0.0, 360.0), (0.0, 180.0))
-    wide, other = (session_maker(spoken("gs232b"), box) for _ in range(2))
+    wide, other = (connected("gs232b", box) for _ in range(2))
     assert wide.receive(b"P45\rM400\r") == [b"Mode 450 degree\r\n"]
     assert box.status().azimuth.target_deg == pytest.approx(40), "the direction, within the range"
     assert other.receive(b"M400\r") == [b"?>\r\n"]
@@ -112,5 +99,5 @@ def test_may_calibrate_is_what_it_takes(new_box: type[BenchBox], command: bytes)
     for may, answer in ((False, [b"?>\r\n"]), (True, [])):
         box = new_box()
         box.stands_at(10, 10)
-        assert session_maker(spoken("gs232b", may_calibrate=may), box).receive(command) == answer
+        assert connected("gs232b", box, may_calibrate=may).receive(command) == answer
         assert [type(order) for order in box.orders] == [Calibrate] * may

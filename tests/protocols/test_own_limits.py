@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from rotator.exchange.orders import Aim
-from tests.protocols.test_damaged_stops import connected
+from tests.protocols.fed import connected
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

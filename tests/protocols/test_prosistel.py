@@ -1,14 +1,11 @@
-"""Prosistel's boxes: the bytes that Hamlib sends and reads, damaged commands, and any bytes at all."""
+"""Prosistel's boxes: the bytes that Hamlib sends and reads, and damaged commands."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hw.ports import Axis
 from rotator.exchange.orders import Aim, Order, Stop
@@ -77,32 +74,3 @@ def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
 def test_damaged_commands_move_nothing(box: BenchBox, said: bytes) -> None:
     ProsistelSession(box, Model.D).receive(said)
     assert box.orders == []
-
-
-@given(
-    pieces=st.lists(
-        st.one_of(
-            st.binary(max_size=5),
-            st.sampled_from([b"\x02A", b"\x02E", b"\x02B", b"G75", b"G999", b"?", b"S", b"\r", b"\r", b"\x02AG10\r"]),
-        ),
-        max_size=16,
-    ),
-    model=st.sampled_from(Model),
-)
-def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes], model: Model) -> None:
-    """Well-formed answers; every motion is a whole command in the bytes; the pieces make no difference."""
-    torn, whole = new_box(), new_box()
-    session = ProsistelSession(torn, model)
-    replies = [reply for piece in pieces for reply in session.receive(piece)]
-    heard = b"".join(pieces)
-    assert replies == ProsistelSession(whole, model).receive(heard)
-    assert torn.orders == whole.orders
-    for reply in replies:
-        assert re.fullmatch(rb"\x02[AEB],[G?S],(R|E,00003|\d{3,4},[RB])\r", reply), reply
-    axis = {"A": Axis.AZIMUTH, "E": Axis.ELEVATION} if model is Model.D else {"A": Axis.AZIMUTH, "B": Axis.ELEVATION}
-    possible = []
-    for letter, number in re.findall(r"\x02([AEB])G(\d{1,4})\r", heard.decode("latin-1")):
-        angle_deg = int(number) / (1 if model is Model.D else 10)
-        if letter in axis:
-            possible.append(Aim(angle_deg, None) if axis[letter] is Axis.AZIMUTH else Aim(None, angle_deg))
-    assert all(order in possible for order in torn.motions)

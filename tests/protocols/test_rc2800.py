@@ -1,14 +1,11 @@
-"""M2's RC2800PX: the bytes that Hamlib sends and reads, damaged commands, and any bytes at all."""
+"""M2's RC2800PX: the bytes that Hamlib sends and reads, and damaged commands."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.rc2800 import Rc2800Session
@@ -66,28 +63,3 @@ def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
 def test_damaged_commands_move_nothing(box: BenchBox, said: bytes) -> None:
     Rc2800Session(box).receive(said)
     assert box.orders == []
-
-
-@given(
-    pieces=st.lists(
-        st.one_of(
-            st.binary(max_size=5),
-            st.sampled_from([b"A", b"E", b"S", b"75", b"75.5", b"10", b"\r", b"\r", b"\n", b"A20\r", b"E20.000000\r"]),
-        ),
-        max_size=16,
-    )
-)
-def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes]) -> None:
-    """Well-formed answers; every motion is a whole line of the bytes; the pieces make no difference."""
-    torn, whole = new_box(), new_box()
-    session = Rc2800Session(torn)
-    replies = [reply for piece in pieces for reply in session.receive(piece)]
-    heard = b"".join(pieces)
-    assert replies == Rc2800Session(whole).receive(heard)
-    assert torn.orders == whole.orders
-    for reply in replies:
-        assert re.fullmatch(rb"[AE] (P= *\d+\.\d S=9 [MS]|ERR=05)\r", reply), reply
-    possible = []
-    for letter, number in re.findall(rb"(?:^|[\r\n])[^!-~]*([AE])(\d{1,3}(?:\.\d{0,6})?)(?=[\r\n])", heard):
-        possible.append(Aim(float(number), None) if letter == b"A" else Aim(None, float(number)))
-    assert all(order in possible for order in torn.motions)
