@@ -36,17 +36,6 @@ def test_files_folders_and_patterns(tmp_path: Path) -> None:
     assert catalogue.faults == ()
 
 
-@pytest.mark.parametrize("said", ["ISS", "iss", " Iss (Zarya) ", "zarya", "25544", "ISS-ZARYA"])
-def test_a_satellite_is_found_by_every_name_that_people_say(tmp_path: Path, said: str) -> None:
-    (tmp_path / "iss.tle").write_text(ISS, encoding="utf-8")
-    assert Catalogue([str(tmp_path)]).find(said).catalogue_number == 25544
-
-
-@pytest.mark.parametrize("said", ["SO-50", "so50", "So 50", "27607"])
-def test_capitals_hyphens_and_blanks_do_not_count(said: str) -> None:
-    assert Catalogue([str(TLE)]).find(said).name == "SO-50"
-
-
 @pytest.mark.parametrize(
     ("said", "told"),
     [
@@ -80,13 +69,6 @@ def test_where_nothing_has_been_fetched_yet_it_tells_where_the_reason_stands(tmp
         Catalogue([str(tmp_path / "gone.tle")], fetched=[fetched]).find("iss")
     fetched.write_text(ISS, encoding="utf-8")
     assert Catalogue([], fetched=[fetched]).find("iss").catalogue_number == 25544
-
-
-def test_the_newest_set_of_a_satellite_counts(tmp_path: Path) -> None:
-    for name, message in (("a.json", MESSAGE | NEWER), ("b.json", MESSAGE)):
-        (tmp_path / name).write_text(json.dumps([message]), encoding="utf-8")
-    (found,) = Catalogue([str(tmp_path)]).satellites
-    assert found.epoch_utc_s == 1_740_873_600.0
 
 
 @pytest.mark.parametrize("years_ahead", ["9999", "2025"])

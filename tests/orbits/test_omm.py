@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.orbits import omm, tle
+from rotator.orbits import omm
 from rotator.orbits.elements import Elements
-from tests.orbits.test_tle import ISS
 
 MESSAGE: dict[str, Any] = {
     "OBJECT_NAME": "ISS (ZARYA)",
@@ -44,12 +43,6 @@ def close(one: Elements | str, other: Elements | str) -> bool:
     return one.epoch_utc_s == pytest.approx(other.epoch_utc_s, abs=1e-3) and all(
         getattr(one, key) == pytest.approx(getattr(other, key)) for key in Elements.__slots__ if key != "name"
     )
-
-
-def test_json_csv_and_tle_say_the_same() -> None:
-    (expected,) = tle.read(ISS)
-    assert [close(each, expected) for each in omm.read_json(json.dumps([MESSAGE]))] == [True]
-    assert [close(each, expected) for each in omm.read_csv(as_csv(MESSAGE))] == [True]
 
 
 def test_space_track_writes_numbers_in_quotes() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Stop
-from rotator.protocols.dcu1 import VERBS, Command, Dcu1Session, azimuth_reply, parse, tenths_reply
+from rotator.protocols.dcu1 import VERBS, Dcu1Session, azimuth_reply, tenths_reply
 from rotator.protocols.session import Session
 
 if TYPE_CHECKING:
@@ -18,16 +18,6 @@ if TYPE_CHECKING:
 Feed = Callable[[Session, bytes], list[bytes]]
 HERE, TENTHS = b";235", b"235.0;"
 
-CANONICAL = [
-    (b"AP1235;", Command("AP1", 235.0)),
-    (b"AP1005;", Command("AP1", 5.0)),
-    (b"AP1005.5\r;", Command("AP1", 5.5)),
-    (b"AM1;", Command("AM1")),
-    (b"AI1;", Command("AI1")),
-    (b"BI1;", Command("BI1")),
-    (b"AS1;", Command("AS1")),
-    (b";", Command("")),
-]
 ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
     (b"AP1123;AM1;", [], [Aim(123, None)]),
     (b"AP1123;", [], []),
@@ -72,13 +62,9 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
 ]
 
 
-@pytest.mark.parametrize(("wire", "command"), CANONICAL)
-def test_commands_as_hamlib_writes_them(wire: bytes, command: Command) -> None:
-    assert parse(wire.removesuffix(b";").removesuffix(b"\r")) == command
-
-
-def test_every_row_of_the_table_is_read_above() -> None:
-    assert {verb.text for verb in VERBS} == {command.verb for _, command in CANONICAL}
+def test_every_row_of_the_table_is_tried_above() -> None:
+    said = {command for sent, _, _ in ROWS for command in sent.split(b";")}
+    assert [verb.text for verb in VERBS if not any(command[:3] == verb.text.encode() for command in said)] == []
 
 
 @pytest.mark.parametrize(("sent", "replies", "orders"), ROWS)

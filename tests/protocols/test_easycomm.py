@@ -7,37 +7,6 @@ import pytest
 from rotator.protocols import easycomm
 from rotator.protocols.easycomm import VERBS, Level, Word, is_whole, parse
 
-HAMLIB = [
-    (b"AZ235.6 EL25.0\n", (Word("AZ", 235.6), Word("EL", 25.0))),
-    (b"AZ-10.5 EL-5.5\n", (Word("AZ", -10.5), Word("EL", -5.5))),
-    (b"AZ EL\n", (Word("AZ"), Word("EL"))),
-    (b"AZ\n", (Word("AZ"),)),
-    (b"EL\n", (Word("EL"),)),
-    (b"SA SE\n", (Word("SA"), Word("SE"))),
-    (b"PARK\n", (Word("PARK"),)),
-    (b"RESET\n", (Word("RESET"),)),
-    (b"ML\n", (Word("ML"),)),
-    (b"MR\n", (Word("MR"),)),
-    (b"MU\n", (Word("MU"),)),
-    (b"MD\n", (Word("MD"),)),
-    (b"VL0000\n", (Word("VL", 0.0),)),
-    (b"VR4900\n", (Word("VR", 4900.0),)),
-    (b"VU9900\n", (Word("VU", 9900.0),)),
-    (b"VD0100\n", (Word("VD", 100.0),)),
-    (b"VE\n", (Word("VE"),)),
-    (b"GS\n", (Word("GS"),)),
-    (b"GE\n", (Word("GE"),)),
-]
-
-
-@pytest.mark.parametrize(("line", "words"), HAMLIB)
-def test_commands_as_hamlib_writes_them(line: bytes, words: tuple[Word, ...]) -> None:
-    assert parse(line.removesuffix(b"\n"), Level.III) == words
-
-
-def test_every_row_of_the_table_is_read_above() -> None:
-    assert {verb.text for verb in VERBS} == {word.verb for _, words in HAMLIB for word in words}
-
 
 @pytest.mark.parametrize(
     "line",

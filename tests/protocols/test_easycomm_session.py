@@ -11,7 +11,7 @@ from hw.ports import Axis, Direction
 from rotator import __version__
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Order, Park, Stop
-from rotator.protocols.easycomm import Level
+from rotator.protocols.easycomm import VERBS, Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.session import Session
 
@@ -75,6 +75,11 @@ def test_each_line(new_box: type[BenchBox], line: bytes, replies: list[bytes], o
         session = EasycommSession(box, Level.III)
         assert [reply for piece in pieces for reply in session.receive(piece)] == replies
         assert box.orders == orders
+
+
+def test_every_row_of_the_table_is_tried_above() -> None:
+    said = b" ".join(line for line, _, _ in ROWS)
+    assert [verb.text for verb in VERBS if verb.text.encode() not in said] == []
 
 
 UNTIL_4_5 = [

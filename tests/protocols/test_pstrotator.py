@@ -9,24 +9,11 @@ import pytest
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Park, Stop
 from rotator.orbits.earth import Site
-from rotator.protocols.pstrotator import TAGS, Item, PstRotatorSession, encode, parse
+from rotator.protocols.pstrotator import TAGS, PstRotatorSession
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
 
-CANONICAL = [
-    (b"<PST><AZIMUTH>85</AZIMUTH></PST>", (Item("AZIMUTH", "85"),)),
-    (b"<PST><ELEVATION>25.5</ELEVATION></PST>", (Item("ELEVATION", "25.5"),)),
-    (
-        b"<PST><STOP>1</STOP><TRACK>0</TRACK><AZIMUTH>85</AZIMUTH></PST>",
-        (Item("STOP", "1"), Item("TRACK", "0"), Item("AZIMUTH", "85")),
-    ),
-    (b"<PST><PARK>1</PARK></PST>", (Item("PARK", "1"),)),
-    (b"<PST><HOME>1</HOME></PST>", (Item("HOME", "1"),)),
-    (b"<PST><LLH>53.4,13.4,30000</LLH></PST>", (Item("LLH", "53.4,13.4,30000"),)),
-    (b"<PST>AZ?</PST>", (Item("AZ?"),)),
-    (b"<PST>EL?TGA?TGE?MODE?</PST>", (Item("EL?"), Item("TGA?"), Item("TGE?"), Item("MODE?"))),
-]
 ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
     (b"<PST><AZIMUTH>85</AZIMUTH></PST>", [], [Aim(85, None)]),
     (b"<PST><ELEVATION>45</ELEVATION></PST>", [], [Aim(None, 45)]),
@@ -56,6 +43,7 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
     (b"<PST>EL?</PST>", [b"EL:25.0\r"], []),
     (b"<PST>AZ?EL?</PST>\n", [b"AZ:235.0\r", b"EL:25.0\r"], []),
     (b"<PST>MODE?</PST>", [b"MODE:0\r"], []),
+    (b"<PST>TGA?TGE?</PST>", [b"TGA:235\r", b"TGE:25\r"], []),
     (b"<PST>az?</PST>", [b"AZ:235.0\r"], []),
     # orders are never answered, and a question beside one is
     (b"<PST><AZIMUTH>85</AZIMUTH>AZ?</PST>", [b"AZ:235.0\r"], [Aim(85, None)]),
@@ -105,14 +93,9 @@ PROGRAMS: dict[str, list[tuple[bytes, list[Order]]]] = {
 }
 
 
-@pytest.mark.parametrize(("wire", "items"), CANONICAL)
-def test_reads_what_it_writes_and_writes_what_it_reads(wire: bytes, items: tuple[Item, ...]) -> None:
-    assert parse(wire) == items
-    assert encode(*items) == wire
-
-
-def test_every_row_of_the_table_is_written_and_read_above() -> None:
-    assert {tag.text for tag in TAGS} == {item.tag for _, items in CANONICAL for item in items}
+def test_every_row_of_the_table_is_tried_above() -> None:
+    said = b"".join(sent for sent, _, _ in ROWS)
+    assert [tag.text for tag in TAGS if tag.text.encode() not in said] == []
 
 
 @pytest.mark.parametrize(("sent", "replies", "orders"), ROWS)

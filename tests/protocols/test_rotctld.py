@@ -15,7 +15,7 @@ from hw.ports import Axis
 from rotator import __version__
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Park, Stop
-from rotator.protocols.rotctld import BadRequest, Request, encode, requests
+from rotator.protocols.rotctld import BadRequest, Request, requests
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 
@@ -31,17 +31,6 @@ HYBRID = (
     b"min_az=0.000000\nmax_az=450.000000\nmin_el=0.000000\nmax_el=180.000000\nsouth_zero=0\nrot_type=AzEl\ndone\n"
 )
 
-CANONICAL = [
-    (b"P 235.000000 25.000000\n", Request("set_pos", ("235.000000", "25.000000"))),  # Hamlib's model 2
-    (b"P 180.00 45.00\n", Request("set_pos", ("180.00", "45.00"))),  # Gpredict
-    (b"P 174,46 0,00\n", Request("set_pos", ("174,46", "0,00"))),  # Gpredict on a European desktop
-    (b"p\n", Request("get_pos")),
-    (b"S\n", Request("stop")),
-    (b"K\n", Request("park")),
-    (b"_\n", Request("get_info")),
-    (b"q\n", Request("quit")),
-    (b"\\dump_state\n", Request("dump_state")),
-]
 ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
     (b"p", [HERE], []),
     (b"\\get_pos", [HERE], []),
@@ -102,12 +91,6 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
 @pytest.fixture
 def session(box: BenchBox) -> RotctldSession:
     return RotctldSession(box)
-
-
-@pytest.mark.parametrize(("line", "request_"), CANONICAL)
-def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, request_: Request) -> None:
-    assert list(requests(line.decode().removesuffix("\n"))) == [request_]
-    assert encode(request_) == line
 
 
 def test_what_makes_no_sense_ends_the_line() -> None:
