@@ -16,6 +16,10 @@ _STOP = re.compile(
 """In capitals. A digit behind other letters is more likely an order that has lost something."""
 
 
+NOISE = "".join(map(chr, (*range(0x21), *range(0x7F, 0x100))))
+"""What may come before a command, from a port being plugged in: blanks, control characters, bytes beyond ASCII."""
+
+
 def is_stop(data: bytes) -> bool:
     """Whether bytes that are no valid command were meant as a stop."""
     return _STOP.search(data.upper()) is not None

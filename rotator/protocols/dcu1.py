@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import aim, outside
-from rotator.protocols.damaged import is_stop
+from rotator.protocols.damaged import NOISE, is_stop
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box, Talk
 
@@ -41,7 +41,7 @@ VERBS = (
 )
 _BY_TEXT = {verb.text: verb for verb in VERBS}
 _TARGET = re.compile(r"AP1(\d{3}(?:\.\d*)?)")
-_NOISE = bytes((*range(0x21), *range(0x7F, 0x100)))
+_NOISE = NOISE.encode("latin-1")
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from rotator.protocols.aiming import NUMBER, degrees
-from rotator.protocols.damaged import is_stop
+from rotator.protocols.damaged import NOISE, is_stop
 
 MAX_LINE = 256
 
@@ -91,7 +91,7 @@ def parse(line: bytes, level: Level) -> tuple[Word, ...]:
     Words that begin with other letters are not for a rotor: frequencies, modes, the satellite HAZEL5.
     """
     text = line.upper().decode("latin-1").replace("\t", " ").replace(";", " ")
-    text = text.lstrip("".join(map(chr, (*range(0x21), *range(0x7F, 0x100)))))
+    text = text.lstrip(NOISE)
     angles, rest, damaged = _angles(text)
     others = [(match.start(), match[0]) for match in re.finditer("[^ ]+", rest)]
     between_blanks = {match.start(): match[0] for match in re.finditer("[^ ]+", text)}

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from rotator.protocols.aiming import SURE_NUMBER, degrees
-from rotator.protocols.damaged import is_stop
+from rotator.protocols.damaged import NOISE, is_stop
 from rotator.protocols.rounding import whole
 
 LEAST_AZIMUTHS = 2
@@ -101,7 +101,6 @@ class NoOrder(NotACommand):
     """An M or W without numbers, or with numbers that are no order. It clears the timed list like any other M or W."""
 
 
-_NOISE = "".join(map(chr, (*range(0x21), *range(0x7F, 0x100))))
 _PASSED_OVER = " ;\0"
 """What may follow a command: GS232-Remote ends each one with `;`, and plugging in a cable can add a NUL."""
 _AXIS_STOP = re.compile("[AE][^A-Z0-9]*")
@@ -125,7 +124,7 @@ def parse(line: bytes, dialect: Dialect) -> Command | None:
     a damaged digit can never make a different order. Only a stop may be damaged: the person who sent it saw something
     go wrong.
     """
-    text = line.decode("latin-1").replace("\t", " ").lstrip(_NOISE).rstrip(" ")
+    text = line.decode("latin-1").replace("\t", " ").lstrip(NOISE).rstrip(" ")
     body = text.rstrip(_PASSED_OVER).upper()
     if not body:
         return None

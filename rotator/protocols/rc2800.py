@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from hw.ports import Axis
 from rotator.exchange.orders import Stop
 from rotator.protocols.aiming import SURE_NUMBER, aim, degrees
-from rotator.protocols.damaged import is_stop
+from rotator.protocols.damaged import NOISE, is_stop
 from rotator.protocols.lines import OVERLONG, LineTalk
 from rotator.protocols.session import Box
 
@@ -50,7 +50,7 @@ class Command:
 
 def parse(line: bytes) -> Command | None:
     """The command in one line, without its end; None: the line is no command. Noise before it is skipped."""
-    text = line.decode("latin-1").lstrip("".join(map(chr, (*range(0x21), *range(0x7F, 0x100)))))
+    text = line.decode("latin-1").lstrip(NOISE)
     found = _COMMAND.fullmatch(text)
     if found is None or not found[1]:
         return Command(None) if is_stop(line) else None
