@@ -13,6 +13,8 @@ from typing import Any
 
 import pytest
 
+from tests.boxes import free_port
+
 PATIENCE_S = 60.0
 MOSQUITTO = shutil.which("mosquitto", path=f"{os.environ.get('PATH', '')}:/usr/sbin")
 
@@ -55,8 +57,8 @@ def broker(tmp_path: Path) -> Iterator[Callable[..., Broker]]:
         pytest.skip(reason)
     made: list[Broker] = []
 
-    def new(port: int, settings: str = "allow_anonymous true") -> Broker:
-        made.append(Broker(tmp_path, port, settings))
+    def new(settings: str = "allow_anonymous true") -> Broker:
+        made.append(Broker(tmp_path, free_port(), settings))
         made[-1].start()
         return made[-1]
 

@@ -83,8 +83,7 @@ def answered(client: Listener, method: str) -> list[dict[str, Any]]:
 async def test_it_tells_what_rotator_where_tells_and_obeys_the_methods_of_the_page(
     tmp_path: Path, broker: NewBroker, listener: NewListener
 ) -> None:
-    port = free_port()
-    broker(port)
+    port = broker().port
     client = listener(port)
     async with box(tmp_path, port, 'may = "move"') as running:
         await until(lambda: bool(client.latest("rotator/status")))
@@ -105,8 +104,7 @@ async def test_it_tells_what_rotator_where_tells_and_obeys_the_methods_of_the_pa
 
 
 async def test_without_leave_it_may_stop_and_no_more(tmp_path: Path, broker: NewBroker, listener: NewListener) -> None:
-    port = free_port()
-    broker(port)
+    port = broker().port
     client = listener(port)
     # Kept from a time when it was online.
     await asyncio.to_thread(client.say, "rotator/do/stop", "PRESS", retain=True)
@@ -125,8 +123,8 @@ async def test_without_leave_it_may_stop_and_no_more(tmp_path: Path, broker: New
 async def test_a_broker_that_goes_takes_its_jog_along_and_is_found_again(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture
 ) -> None:
-    port = free_port()
-    first = broker(port)
+    first = broker()
+    port = first.port
     client = listener(port)
     async with box(tmp_path, port, 'may = "move"') as running:
         await until(lambda: client.latest("rotator/availability") == "online")
@@ -145,8 +143,7 @@ async def test_a_broker_that_goes_takes_its_jog_along_and_is_found_again(
 async def test_a_box_whose_broker_refuses_it_runs_and_says_so(
     tmp_path: Path, broker: NewBroker, caplog: pytest.LogCaptureFixture
 ) -> None:
-    port = free_port()
-    broker(port, "allow_anonymous false")
+    port = broker("allow_anonymous false").port
     async with box(tmp_path, port, 'user = "box"\npassword = "tops3cret"') as running:
         await until(lambda: "it refuses the box: Not authorized" in caplog.text)
         assert running.status.azimuth.fault is None
@@ -159,8 +156,7 @@ LONG = "x" * (MOST_BYTES + 1)
 async def test_two_boxes_on_one_broker_hear_each_its_own_orders_and_both_the_stop_of_all(
     tmp_path: Path, broker: NewBroker, listener: NewListener
 ) -> None:
-    port = free_port()
-    broker(port)
+    port = broker().port
     north, south = tmp_path / "north", tmp_path / "south"
     for folder in (north, south):
         folder.mkdir()
@@ -182,8 +178,7 @@ async def test_a_message_that_is_too_long_and_kept_is_never_read_and_the_box_goe
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture, may: str
 ) -> None:
     """It comes with each new connection, before anything else: once told, the box goes on without that topic."""
-    port = free_port()
-    broker(port)
+    port = broker().port
     kept = {"look": "point", "stop": "stop", "move": "point"}[may]
     client = listener(port)
     await asyncio.to_thread(client.say, f"rotator/do/{kept}", LONG, retain=True)
@@ -214,8 +209,7 @@ def has_ended(client: Listener, before: int) -> bool:
 async def test_a_stop_that_is_too_long_stops_and_is_told_once(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture
 ) -> None:
-    port = free_port()
-    broker(port)
+    port = broker().port
     client = listener(port)
     async with box(tmp_path, port) as running:
         for _ in range(2):
@@ -232,13 +226,12 @@ def test_250_megabytes_on_the_broker_take_no_memory_of_a_box_of_400(
     tmp_path: Path, broker: NewBroker, listener: NewListener
 ) -> None:
     """The program itself, in a process of its own that may have 400 MB at all."""
-    port, page = free_port(), free_port()
-    broker(port)
+    port = broker().port
     client = listener(port)
     client.say("rotator/do/point", "x" * 250_000_000, retain=True)
     file = tmp_path / "r.toml"
     file.write_text(
-        file_with_page(tmp_path, page, f'[mqtt]\nbroker = "127.0.0.1:{port}"\ntopic = "rotator"\nmay = "move"\n')
+        file_with_page(tmp_path, free_port(), f'[mqtt]\nbroker = "127.0.0.1:{port}"\ntopic = "rotator"\nmay = "move"\n')
     )
     limited = (
         "import os, resource, sys; resource.setrlimit(resource.RLIMIT_DATA, (400 << 20,) * 2); "
@@ -304,10 +297,9 @@ OF_THE_BOX = 'ca_file = "{0}/ca.pem"\ncert_file = "{0}/box.pem"\n'
 async def test_a_broker_of_one_s_own_authority_that_wants_a_certificate(
     broker: NewBroker, certificates: Path, caplog: pytest.LogCaptureFixture, keys: str, said: str
 ) -> None:
-    port = free_port()
     files = {"cafile": "ca.pem", "certfile": "broker.pem", "keyfile": "broker.key"}
     settings = "".join(f"{key} {certificates / name}\n" for key, name in files.items())
-    broker(port, f"allow_anonymous true\n{settings}require_certificate true")
+    port = broker(f"allow_anonymous true\n{settings}require_certificate true").port
     caplog.set_level("INFO")
     async with box(certificates, port, f"tls = true\n{keys.format(certificates)}"):
         await until(lambda: said in caplog.text)
