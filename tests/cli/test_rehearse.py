@@ -129,12 +129,6 @@ def test_a_configured_start_stands(rotator_here: Rotator, flown: Path, tmp_path:
 # --- how it is flown
 
 
-def test_via_rotctld(rotator_here: Rotator, flown: Path) -> None:
-    summary = figures(rotator_here("rehearse", flown, "--via", "rotctld", "--json"))
-    assert list(summary) == KEYS
-    assert summary["rms_deg"] < 6
-
-
 def test_via_track_it_waits_at_the_rise_and_points_better(
     rotator_here: Rotator, flown: Path, tmp_path: Path, plain: tuple[Figures, bytes]
 ) -> None:

@@ -123,14 +123,6 @@ def test_a_word_without_effect_says_why(bench: BenchBox) -> None:
     assert typed(bench, " park\r").line == "park: stopped by link#1: nothing moves until resume"
 
 
-def test_a_park_after_a_later_stop_is_not_called_done(bench: BenchBox) -> None:
-    keys = typed(bench, " resume\r")
-    bench.wait(1.0)
-    for pressed in " park\r":
-        keys.key(pressed)
-    assert keys.line == "park: stopped by link#1: nothing moves until resume"
-
-
 def test_a_release_does_not_say_that_a_fault_is_gone() -> None:
     bench = BenchBox(blind=True)
     bench.wait(1.0)

@@ -72,12 +72,6 @@ def test_passes_as_json(tmp_path: Path) -> None:
     assert 0 < first["expected_error_deg"] < 1
 
 
-def test_passes_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
-    text = told(tmp_path, "passes", "iss", "so50", "--from", EVENING, "--least", "10").stdout
-    assert "ISS    01 Mar 00:00:11" in text
-    assert max(len(line) for line in text.splitlines()) < 80
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -160,11 +154,6 @@ def test_a_pass_tells_its_part_of_the_plan(tmp_path: Path) -> None:
     for each in found:
         expected = plan.get(each["aos"])
         assert each["plan"] == (expected and {key: expected[key] for key in each["plan"]})
-
-
-def test_passes_without_anything_followed_have_no_plan(tmp_path: Path) -> None:
-    found = read(told(tmp_path, "passes", "--from", EVENING, "--hours", "3", "--json"))
-    assert [each["plan"] for each in found] == [None] * len(found)
 
 
 def test_a_plan_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:

@@ -148,12 +148,6 @@ def test_an_order_for_one_antenna_is_not_given_where_two_boxes_run(
             RunningBox(None)
 
 
-def test_no_box(rotator: Callable[..., Any], config: Path) -> None:
-    done = rotator("stop", "--config", config)
-    assert done.returncode == 1
-    assert done.stderr.startswith("rotator: no box runs here: nothing answers at ")
-
-
 @pytest.mark.parametrize("command", ["stop", "where", "monitor"])
 @pytest.mark.parametrize(
     ("text", "mistake"),
