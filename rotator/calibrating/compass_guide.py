@@ -13,8 +13,7 @@ from hw.ports import Axis, CompassCalibration
 from rotator.calibrating.bearing import UNCALIBRATED, CompassReading, HeadingSample
 from rotator.calibrating.entries import Entry, StopNow
 from rotator.calibrating.facts import NorthFacts
-from rotator.calibrating.guide import CONFIRM_S, Steps, position_unknown, refused
-from rotator.calibrating.steering import SteeringGuide
+from rotator.calibrating.guide import CONFIRM_S, SteeringGuide, Steps, position_unknown, refused
 from rotator.control.sky.angles import FULL_TURN_DEG, turn_deg
 from rotator.exchange.orders import Aim, Confirm, Stop
 from rotator.exchange.status import Status

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 
-from rotator.calibrating.entries import NUMBER_FORM, Entry, Number, Press, StopNow, Unknown, Word
+from rotator.calibrating.entries import NUMBER_FORM, TAP_S, Entry, Number, Press, StopNow, Unknown, Word
 from rotator.calibrating.results import Result
 from rotator.exchange.faults import FaultKind
-from rotator.exchange.orders import Order, Stop
+from rotator.exchange.orders import Jog, Order, Stop
 from rotator.exchange.spoken import sender
 from rotator.exchange.status import AxisStatus, Status
 
@@ -213,3 +213,34 @@ class Guide:
 
     def _say(self, *lines: str) -> None:
         self._lines += lines
+
+
+class SteeringGuide(Guide):
+    """With it a person steers the whole antenna, by presses for either axis. An answer waits until it stands again.
+
+    `tap_s`: how long one key press turns an axis.
+    """
+
+    def __init__(self, keys: str, tap_s: float = TAP_S) -> None:
+        super().__init__(keys, -360.0, 720.0)
+        self._tap_s = tap_s
+        self._pressed_s: float | None = None
+        """When the latest press was ordered; None: there was none."""
+
+    def ready(self, entry: Entry) -> bool:
+        if isinstance(entry, StopNow):
+            return True
+        pressed = self._pressed_s is not None and self._now_s - self._pressed_s < ORDER_TAKEN_S
+        return self._asking and not (pressed or self._latest is None or self._latest.moving)
+
+    @property
+    def _axis(self) -> AxisStatus:
+        return self._status.azimuth
+
+    def _press(self, press: Press, *, may_turn: bool) -> None:
+        if not may_turn:
+            self._say(f"It turns again after your answer. {self._accepts}")
+        elif press.seconds > 0:
+            self._pressed_s = self._now_s
+            seconds = self._tap_s if press.seconds == TAP_S else press.seconds
+            self._orders.append(Jog(press.axis, press.direction, seconds))

@@ -15,6 +15,7 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.calibrating.entries import StopNow
+from rotator.calibrating.results import save, saved_in
 from rotator.calibrating.rig import axis_guide, picture, step
 from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.config.load import ConfigError
@@ -94,7 +95,6 @@ class PageCalibration:
         result = self._guide.result
         if result is None:
             return
-        from rotator.calibrating.saving import save, saved_in  # noqa: PLC0415 - loads tomlkit, which a start can do without
 
         try:
             await asyncio.to_thread(save, result, self._path)

@@ -16,9 +16,8 @@ from typing import Protocol
 from hw.ports import Axis
 from rotator.assembly.kept_files import build_state
 from rotator.assembly.station import Station
-from rotator.calibrating.results import AngleConfirmed, Result
+from rotator.calibrating.results import AngleConfirmed, Result, as_toml, save, saved_in
 from rotator.calibrating.rig import AxisRig, NorthRig, Rig
-from rotator.calibrating.saving import as_toml, save, saved_in
 from rotator.calibrating.sky_rig import SkyRig, receiver_at
 from rotator.calibrating.sky_table import Residuals
 from rotator.calibrating.stops import UNREACHED, Stops

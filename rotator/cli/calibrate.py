@@ -15,7 +15,6 @@ from functools import partial
 from pathlib import Path
 
 import click
-from rich.console import Console
 
 from hw.ports import Axis
 from rotator.assembly.kept_files import build_state
@@ -26,10 +25,11 @@ from rotator.calibrating.session import SKY, CalibrationSession
 from rotator.calibrating.sky_rig import check
 from rotator.calibrating.sky_table import Residuals
 from rotator.cli.announced import announced
-from rotator.cli.calibrate_screens import LivePicture, PlainLines, wrapped
+from rotator.cli.calibrate_screens import LivePicture, PlainLines
 from rotator.cli.commands import draws
 from rotator.cli.failed import CommandFailed
-from rotator.cli.faults import fault_names, parse_faults
+from rotator.cli.faults import chosen_faults
+from rotator.cli.lines import say
 from rotator.cli.reach import connected, consoles
 from rotator.cli.run import make_sure_of
 from rotator.cli.screen import log_to, stop_on_signals
@@ -64,7 +64,7 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
     """
     if what != SKY and any(option is not None for option in (target, at_s, receiver, svg)):
         raise click.UsageError("--target, --at, --receiver and --svg go with: rotator calibrate sky")
-    chosen = parse_faults(faults, fault_names(path)) if faults else []
+    chosen = chosen_faults(path, faults)
     config = load(path)
     if config.rotor.hardware != "sim" and at_s is not None:
         raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
@@ -78,7 +78,7 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
     seen = _target(config, target or "sun", utc(), receiver) if what == SKY else None
     tasks = [axis.value for axis in Axis] if what is None else [what]
     plain = plain or not (sys.stdin.isatty() and draws())
-    screen: PlainLines | LivePicture = PlainLines() if plain else LivePicture()
+    screen: PlainLines = PlainLines() if plain else LivePicture()
 
     def drawn(shown: Residuals) -> None:
         if svg is not None:
@@ -123,7 +123,7 @@ async def _run(session: CalibrationSession, config: Config, path: Path | None, t
         return 0 if await session.run(tasks, stop) else 1
 
 
-def _draw(shown: Residuals, svg: Path, screen: PlainLines | LivePicture) -> None:
+def _draw(shown: Residuals, svg: Path, screen: PlainLines) -> None:
     try:
         write_whole(svg, residual_svg(shown.points, shown.before, shown.after), mode=0o644)
     except OSError as fault:
@@ -166,7 +166,7 @@ def _refuse_stopped(config: Config, path: Path | None) -> None:
             f"{held}: nothing turns in a calibration either. Start it in a terminal: there it asks whether the mast "
             "is free of people, and can end the stop"
         )
-    click.echo(wrapped(f"{held}, and nothing turns in a calibration either.", Console()))
+    say(f"{held}, and nothing turns in a calibration either.", indent=0)
     if not click.confirm("Is the mast free of people, and shall the stop end?"):
         raise CommandFailed("the stop stays: nothing was done")
     if not kept.save(None) and not kept.state.outlives:

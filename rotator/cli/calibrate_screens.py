@@ -46,15 +46,14 @@ class PlainLines:
         yield
 
 
-class LivePicture:
+class LivePicture(PlainLines):
     """A terminal: single keys, and the state of the rig below the lines.
 
     A key that is held makes the guide say the same thirty times a second: it is shown once, and counted.
     """
 
     def __init__(self) -> None:
-        self.typed = TypedAhead()
-        self._console = Console(highlight=False, soft_wrap=True)
+        super().__init__()
         self._shown: tuple[str, ...] = ()
         self._times = 1
 
@@ -64,8 +63,7 @@ class LivePicture:
             return
         if self._times > 1:
             self._console.print(self._count, style="dim", markup=False)
-        for line in said:
-            self._console.print(wrapped(line, self._console), markup=False)
+        super().show(*said)
         self._shown, self._times = said, 1
 
     def ask(self, prompt: str) -> None:

@@ -24,6 +24,11 @@ def fault_names(path: Path | None) -> Collection[str] | None:
     return simulated_rotor(config, time.monotonic, None, (0.0, 0.0)).faults if config.rotor.hardware == "sim" else None
 
 
+def chosen_faults(path: Path | None, texts: tuple[str, ...]) -> list[tuple[float, str]]:
+    """Those of a command line, for the rotor of this file."""
+    return parse_faults(texts, fault_names(path)) if texts else []
+
+
 def parse_faults(texts: tuple[str, ...], names: Collection[str] | None) -> list[tuple[float, str]]:
     """`name@seconds` to (seconds, name); without seconds the fault begins at once.
 

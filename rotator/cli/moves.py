@@ -10,7 +10,7 @@ from __future__ import annotations
 import signal
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -157,24 +157,19 @@ def _progress(status: BoxStatus, axis: str) -> str:
     return f"{axis} {angle}{target}" + (" FAULT" if now["fault"] else "")
 
 
-class _Row:
+@contextmanager
+def _row() -> Iterator[Callable[[str], None]]:
     """One row of a terminal that is written over; nothing where the errors go to no terminal."""
+    shown = sys.stderr.isatty()
 
-    def __init__(self) -> None:
-        self._shown = sys.stderr.isatty()
-
-    def __call__(self, text: str) -> None:
-        if self._shown:
+    def show(text: str) -> None:
+        if shown:
             click.echo(f"\r\x1b[K{text}", nl=False, err=True)
 
-
-@contextmanager
-def _row() -> Iterator[_Row]:
-    row = _Row()
     try:
-        yield row
+        yield show
     finally:
-        row("")
+        show("")
 
 
 @contextmanager

@@ -25,7 +25,7 @@ from rotator.cli.anew import restored, start_anew, text_of
 from rotator.cli.announced import announced, boxes
 from rotator.cli.commands import draws
 from rotator.cli.failed import CommandFailed
-from rotator.cli.faults import fault_names, parse_faults
+from rotator.cli.faults import chosen_faults
 from rotator.cli.lines import in_front, wrapped
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.reach import connected
@@ -48,7 +48,7 @@ PAGE_LOOKS = 30
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
     plain = plain or not draws()
-    chosen = parse_faults(faults, fault_names(path)) if faults else []
+    chosen = chosen_faults(path, faults)
     use_one_heap()
     allow_enough()
     anew = Anew()

@@ -14,8 +14,7 @@ import pytest
 from firmware_sim.chips.bno055 import LEARNT
 from firmware_sim.chips.bno055 import Bno055 as SimBno055
 from hw.ports import HardwareError
-from rotator.calibrating.results import AngleConfirmed, NorthFound
-from rotator.calibrating.saving import as_toml
+from rotator.calibrating.results import AngleConfirmed, NorthFound, as_toml
 from rotator.config.load import parse
 from rotator.store.compass import KeptCompass
 from rotator.store.state import State

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rotator.calibrating.saving import as_toml, save
+from rotator.calibrating.results import as_toml, save
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg

@@ -14,8 +14,7 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis
-from rotator.calibrating.results import AxisCalibrated
-from rotator.calibrating.saving import as_toml
+from rotator.calibrating.results import AxisCalibrated, as_toml
 from rotator.config.load import load, parse
 from rotator.config.places import console_path
 from rotator.exchange.status import Latch
