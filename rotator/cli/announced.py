@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import pwd
 import stat
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -45,9 +45,9 @@ class Announced(NamedTuple):
 
 
 @contextmanager
-def announced(monitor: Path, config: Path | None, environment: Mapping[str, str] = os.environ) -> Iterator[None]:
+def announced(monitor: Path, config: Path | None) -> Iterator[None]:
     """Leave the file while the box runs. Where that cannot be, commands find the box from its own folder alone."""
-    note = _folder(environment) / str(os.getpid())
+    note = _folder() / str(os.getpid())
     lines = (monitor.absolute(), Path.cwd(), config.resolve() if config else "")
     with suppress(OSError):
         note.parent.mkdir(parents=True, exist_ok=True)
@@ -60,10 +60,10 @@ def announced(monitor: Path, config: Path | None, environment: Mapping[str, str]
             note.unlink(missing_ok=True)
 
 
-def boxes(environment: Mapping[str, str] = os.environ, others: Sequence[Home] | None = None) -> list[Announced]:
+def boxes(others: Sequence[Home] | None = None) -> list[Announced]:
     """The boxes of this user whose sockets are there. For root also those of `others`, which are all other users."""
     others = _other_homes() if others is None else others
-    found = _boxes_in(_folder(environment))
+    found = _boxes_in(_folder())
     for home in others:
         found += _boxes_in(home.folder / STATE_OF_A_USER / FOLDER, home.owner)
     return list(dict.fromkeys(found))
@@ -114,6 +114,6 @@ def _remove_old(folder: Path) -> None:
             note.unlink(missing_ok=True)
 
 
-def _folder(environment: Mapping[str, str]) -> Path:
-    state = environment.get("XDG_STATE_HOME") or Path(os.path.expanduser("~")) / STATE_OF_A_USER
+def _folder() -> Path:
+    state = os.environ.get("XDG_STATE_HOME") or Path(os.path.expanduser("~")) / STATE_OF_A_USER
     return Path(state) / FOLDER

@@ -54,8 +54,8 @@ def rehearse_pass(
     as_json: bool,
     at_s: float | None,
     arduino: bool,
-    target: str | None = None,
-    svg: Path | None = None,
+    target: str | None,
+    svg: Path | None,
 ) -> None:
     """`word`: the name of a shipped pass, or a file; None: list the names.
 
