@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, HardwareError
-from rotator.calibrating.readings import DEGREES, NotTrusted, measure
 
 U100 = '[rotor]\ntype = "relay-pulse"\n[azimuth]\nmax_deg = 360\n[elevation]\nmax_deg = 90\n'
 ISEL = '[rotor]\ntype = "moteus"\n[azimuth]\nmax_deg = 360\n[elevation]\nmax_deg = 90\n'
@@ -209,18 +208,6 @@ def test_an_antenna_that_swings(calibration: Any) -> None:
     run.wait(1.0)
     assert "Refused: elevation: " in run.text
     assert run.guide.prompt.startswith("Enter: here")
-
-
-@pytest.mark.parametrize(
-    ("readings", "reason"),
-    [
-        ([10.0 + 6.0 * (at % 2) for at in range(40)], "noisy reading: 10.0° to 16.0°"),
-        ([10.0 + 0.05 * at for at in range(40)], r"moved by \+1.0°"),
-    ],
-)
-def test_degrees_that_are_not_trusted(readings: list[float], reason: str) -> None:
-    with pytest.raises(NotTrusted, match=reason):
-        measure(readings, -1000.0, 1000.0, DEGREES)
 
 
 def test_a_rotor_that_is_sent_angles_cannot_be_driven_to_the_ends_of_a_pot(calibration: Any) -> None:

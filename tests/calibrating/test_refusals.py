@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from rotator.calibrating.readings import NotTrusted, measure, movement
+from rotator.calibrating.readings import DEGREES, SHARES, NotTrusted, ReadingUnit, measure, movement
 
 
 def at_the_low_end(run: Any) -> Any:
@@ -170,17 +170,20 @@ def test_after_the_wire_is_mended_it_goes_on(calibration: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("readings", "reason"),
+    ("readings", "unit", "reason"),
     [
-        ([0.5] * 39 + [0.01], "outside lowest_reading 0.02"),
-        ([0.99] * 40, "outside lowest_reading"),
-        ([0.5 + 0.01 * (at % 2) for at in range(40)], "noisy"),
-        ([0.5 + 0.0001 * at for at in range(40)], r"moved by \+0.0020"),
+        ([0.5] * 39 + [0.01], SHARES, "outside lowest_reading 0.02"),
+        ([0.99] * 40, SHARES, "outside lowest_reading"),
+        ([0.5 + 0.01 * (at % 2) for at in range(40)], SHARES, "noisy"),
+        ([0.5 + 0.0001 * at for at in range(40)], SHARES, r"moved by \+0.0020"),
+        ([10.0 + 6.0 * (at % 2) for at in range(40)], DEGREES, "noisy reading: 10.0° to 16.0°"),
+        ([10.0 + 0.05 * at for at in range(40)], DEGREES, r"moved by \+1.0°"),
     ],
 )
-def test_readings_that_are_not_trusted(readings: list[float], reason: str) -> None:
+def test_readings_that_are_not_trusted(readings: list[float], unit: ReadingUnit, reason: str) -> None:
+    least, most = (0.02, 0.98) if unit is SHARES else (-1000.0, 1000.0)
     with pytest.raises(NotTrusted, match=reason):
-        measure(readings, 0.02, 0.98)
+        measure(readings, least, most, unit)
 
 
 def test_a_turn_that_slips_back() -> None:

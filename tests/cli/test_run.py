@@ -166,20 +166,6 @@ def test_the_faults_there_are_also_beside_a_running_box(
     assert {"adc-gone", "bus-hung", "azimuth-pot-open", "elevation-motor-stalled"} <= set(names)
 
 
-@pytest.mark.parametrize(
-    ("fault", "said"),
-    [
-        ("gremlins", "no fault called gremlins; --fault list shows them"),
-        ("adc-gone@noon", "adc-gone@noon: after @ stands the moment"),
-    ],
-)
-def test_a_fault_there_is_not(rotator: Rotator, config: Path, fault: str, said: str) -> None:
-    done = rotator("run", "--config", config, "--fault", fault)
-    assert done.returncode == 2
-    assert said in done.stderr
-    assert "Traceback" not in done.stderr
-
-
 def test_a_fault_stops_its_axis_and_says_so(start: Start, config: Path) -> None:
     box = start("run", "--config", config, "--fault", "azimuth-pot-open@0.3")
     assert "limit" in box.until(r"FAULT azimuth: [^\n]*rotator help [^\n]*\n")
