@@ -1,8 +1,8 @@
 """Tracks one target from pass to pass, as persons ask: has its flights planned, and orders them.
 
 Knows the box, the planner and the sky, and gives orders as a link does. Another sender that takes the antenna ends the
-tracking. `tracked` knows what is tracked and what comes next. Plans are computed elsewhere, because that takes long.
-Times are arguments.
+tracking. A target whose file of elements is gone is tracked on with those read before. `tracked` knows what is tracked
+and what comes next. Plans are computed elsewhere, because that takes long. Times are arguments.
 """
 
 from __future__ import annotations
@@ -11,16 +11,16 @@ import logging
 import threading
 from collections.abc import Callable
 
+from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.timed_table import TimedTable
 from rotator.exchange.flight_order import Fly
 from rotator.exchange.orders import BOTH, Aim, Order, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.tracking.next_flight import NeverRises, Now
+from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 from rotator.tracking.ports import TRACK, Box, Finder, Planner
 from rotator.tracking.program import CannotFly, Program
-from rotator.tracking.request_plan import plan_of
 from rotator.tracking.system_clock import ASSUMED_ERROR_S
 from rotator.tracking.tracked import NOTHING, Flown, Request, Tracked, ends_tracking
 
@@ -217,7 +217,7 @@ class Tracker:
 
     def _fly(self, request: Request, asked: int, now: Now) -> None:
         try:
-            flight, wanted = plan_of(request, self._finder, self._planner, self._box.antenna(), now)
+            flight, wanted = _plan_of(request, self._finder, self._planner, self._box.antenna(), now)
         except (Unknown, NotThere, NeverRises, CannotFly, RuntimeError) as reason:
             self._refuse(asked, request, str(reason))
             return
@@ -253,3 +253,32 @@ class Tracker:
                 return
             self._tracked = self._tracked.ends(reason)
         log.warning("tracking of %s has ended: %s", words, reason)
+
+
+def _plan_of(
+    request: Request, finder: Finder, planner: Planner, antenna: Antenna | None, now: Now
+) -> tuple[NextFlight, Wanted | None]:
+    """The next flight, and its target; None: a table has none. `antenna` None: its angles are not known.
+
+    Raises as `Planner.plan` and `Planner.plan_program`.
+    """
+    if antenna is None:
+        raise NotThere("the antenna's angles are not known")
+    if request.program:
+        return planner.plan_program(request.program, antenna, now), None
+    wanted = _wanted(request, finder)
+    return planner.plan(wanted, antenna, now), wanted
+
+
+def _wanted(request: Request, finder: Finder) -> Wanted:
+    """While the file of the elements is gone: the target of the flight before. Raises Unknown, NotThere."""
+    try:
+        if isinstance(wanted := finder.find(request.words), Wanted):
+            return wanted
+        raise Unknown(f'"{request.words}" is no moving target any more')  # without its file: a direction
+    except Unknown as reason:
+        before = request.flown.wanted if request.flown else None
+        if before is None:
+            raise
+        log.warning("%s; it is tracked on with the elements read before", reason)
+        return before
