@@ -134,7 +134,7 @@ class State:
     @property
     def outlives(self) -> bool:
         """Whether the newest of what must outlive a killed program does: one of the two places has it."""
-        return not self.trouble or (self._memory is not None and not self._memory.trouble)
+        return not self.trouble or (self._memory is not None and not self._memory.trouble and not self._unremoved)
 
     @property
     def sections(self) -> Sections:
@@ -196,24 +196,25 @@ class State:
     def _save(self) -> bool:
         self._look()
         # The card never gets what memory does not have yet: else memory would hide it after a kill.
-        newest = self.spare()
-        with self.news:
-            self._tried, there = newest, newest == self._on_card
-            if not there:
-                # What a write leaves that hangs is not known: memory keeps the newest, whichever it is.
-                self._on_card = None
-        done = there or self._write(newest)
+        newest = self.spare(writing=True)
+        done = self._on_card is not None or self._write(newest)
         with self.news:
             self._on_card = dict(newest) if done else None
         self.spare()
         return done and self.forget_earlier()
 
-    def spare(self) -> Sections:
+    def spare(self, *, writing: bool = False) -> Sections:
         """Have memory take what the card has not; or remove it there, if the card has it all. Returns what the card may
-        be given now."""
+        be given now. `writing`: it is given that next, unless it has it."""
         with self._sparing:
             with self.news:
-                newest, wanted = self._for_card(), self._for_memory()
+                newest = self._for_card()
+                if writing:
+                    self._tried = newest
+                    if newest != self._on_card:
+                        # What a write leaves that hangs is not known: memory keeps the newest, whichever it is.
+                        self._on_card = None
+                wanted = self._for_memory()
             if self._memory is not None and wanted != self._memory_has:
                 done = self._memory.save(wanted) if wanted is not None else _gone(self._memory.path)
                 self._memory_has = wanted if done else {}

@@ -10,6 +10,7 @@ import itertools
 import os
 import shutil
 import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
@@ -21,7 +22,7 @@ import rotator.store.state
 from rotator.exchange.status import Latch
 from rotator.store.knobs import KNOBS
 from rotator.store.latch import BEFORE, LATCH
-from rotator.store.state import EARLIER, State
+from rotator.store.state import EARLIER, Sections, State
 from tests.refusing import refuse
 from tests.search import some
 
@@ -108,3 +109,60 @@ def test_killed_while_yesterday_s_files_are_taken_over(tmp_path: Path) -> None:
             assert state.load(KNOBS)
             assert "learnt" in state.sections
         assert not over or [each.name for each in place.iterdir() if each.is_file()] == ["state.json"]
+
+
+class Watched(State):
+    """Says after each write what a next run would know, if the program were killed now."""
+
+    other: threading.Thread
+    known: Latch | None = None
+    spared = False
+    """Whether the other thread had done its part by then."""
+
+    def _write(self, newest: Sections) -> bool:
+        done = super()._write(newest)
+        self.spared = self.other.ident is not None and not self.other.is_alive()
+        self.known = left(self.path, self.path.parent / "memory")
+        return done
+
+
+@pytest.mark.search
+def test_what_another_thread_notes_at_any_line_of_a_write_is_not_hidden_by_it(tmp_path: Path) -> None:
+    """Above all where that is what the card had before."""
+    seen = 0
+    for line in some(range(320)):
+        state = Watched(tmp_path / str(line) / "state.json", tmp_path / str(line) / "memory")
+        state.other = threading.Thread(target=lambda: None)
+        state.keep(LATCH, OLD)
+        state.note(LATCH, None)
+        state.other = threading.Thread(target=lambda state=state: (state.note(LATCH, OLD), state.spare()))
+        meanwhile_at(line, state.other, state.save)
+        if state.other.ident is not None:
+            state.other.join()
+            assert left(state.path, state.path.parent / "memory") == OLD
+        if state.spared:
+            seen += 1
+            assert state.known == OLD
+    assert seen > 1
+
+
+def meanwhile_at(line: int, other: threading.Thread, job: Callable[[], object]) -> None:
+    """Do the job; at this line of the store the other thread runs as far as the locks let it."""
+    left = line
+
+    def traced(frame: FrameType, event: str, _arg: Any) -> Any:
+        nonlocal left
+        if not frame.f_code.co_filename.startswith(FOLDER):
+            return None
+        left -= event == "line"
+        if left < 0 and other.ident is None:
+            other.start()
+            other.join(0.05)
+        return traced
+
+    before = sys.gettrace()
+    sys.settrace(traced)
+    try:
+        job()
+    finally:
+        sys.settrace(before)
