@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests docs reference drills planted sectors test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
+.PHONY: run test check tests docs reference drills planted scores sectors test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -100,6 +100,10 @@ drills: $(VENV)/.dev
 # Bugs that were planted on purpose, each in a copy of the source: do the judges of the drills still see it?
 planted: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.drills.planted --scripts
+
+# What the code achieves, in ten minutes, beside what it achieved before; SEED plays the new worlds of an earlier run again.
+scores: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.scores $(if $(SEED),--seed $(SEED))
 
 # Ten thousand moves, plans and waits beside forbidden sectors and horizon masks, or MOVES: none may enter one.
 sectors: $(VENV)/.dev
