@@ -106,7 +106,7 @@ def test_a_dragged_priority_changes_the_plan_and_not_the_file(start: Start, visi
     page.mouse.up()
     page.get_by_text("priority 2, in the file 1").wait_for()
     assert names(page) == ["RIVAL", "COMING"]
-    assert "RIVAL" in (tmp_path / "priorities.json").read_text(encoding="utf-8")
+    assert "RIVAL" in (tmp_path / "state.json").read_text(encoding="utf-8")
     assert (tmp_path / "r.toml").read_text(encoding="utf-8") == before
     page.reload()
     page.get_by_text("priority 2, in the file 1").wait_for()
