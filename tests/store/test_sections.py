@@ -93,7 +93,11 @@ DAMAGES: list[tuple[Section[Any], Any, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(("section", "content", "value"), DAMAGES, ids=lambda part: str(part)[:60])
+@pytest.mark.parametrize(
+    ("section", "content", "value"),
+    DAMAGES,
+    ids=lambda part: part.name if isinstance(part, Section) else str(part)[:60],
+)
 def test_damage_is_said_and_not_believed(
     path: Path, section: Section[Any], content: Any, value: Any, caplog: pytest.LogCaptureFixture
 ) -> None:
