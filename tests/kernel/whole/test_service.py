@@ -7,16 +7,18 @@ of an installed system, its paths (this project may stand in /tmp or at home), a
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from tests.kernel.bench.waiting import until
-from tests.kernel.whole.site import Nursery, Site, lives
+from tests.kernel.whole.site import CW, LIMIT_S, Nursery, Site, lives
 
 UNIT = Path(__file__).parents[3] / "install" / "rotator.service"
 UNITS = Path("/run/systemd/system")
@@ -104,6 +106,18 @@ def service(nursery: Nursery, tmp_path_factory: pytest.TempPathFactory) -> Itera
 @pytest.fixture
 def site(service: Service) -> Site:
     return service.site
+
+
+def test_killed_with_its_sentinel(service: Service, site: Site, measure: Callable[[str, float], None]) -> None:
+    # What `systemctl kill -s KILL rotator` does; left is the unit's ExecStopPost.
+    site.order("W400 020")
+    until(lambda: CW in site.on(), "azimuth turning clockwise")
+    blow_s = time.monotonic()
+    for process in (site.sentinel, site.pid):
+        os.kill(process, signal.SIGKILL)
+    took_s = site.off_since_s() - blow_s
+    measure("the program and its sentinel are killed: systemd's `ExecStopPost`", took_s)
+    assert took_s < LIMIT_S
 
 
 def test_it_is_started_again_and_watched(service: Service, site: Site) -> None:
