@@ -108,7 +108,8 @@ def test_the_converter_drops_off_the_bus_and_returns(site: Site) -> None:
     until(lambda: not site.on(), "every relay off")
     until(lambda: site.said("FAULT azimuth: sensor silent"), "the fault in the log")
     site.world.clear("adc-gone")
-    until(lambda: site.said("azimuth: answers again"), "the converter's return in the log")
+    for axis in ("azimuth", "elevation"):
+        until(lambda: site.said(f"{axis}: answers again"), f"the return of {axis}'s readings in the log")  # noqa: B023
     site.order("S")
     site.order("W108 020")
     until(near(site, 108, 20), "the antenna at 108 and 20 degrees", MOVE_S)
