@@ -44,6 +44,9 @@ class Slope:
     speed_dps: float
     error_dps: float
     """Standard error of the speed, from the noise of the readings."""
+    at_s: float = 0.0
+    place_deg: float = 0.0
+    """The middle of the line."""
 
     @property
     def way(self) -> Direction:
@@ -111,7 +114,9 @@ class Trend:
         if count < LEAST_READINGS:
             return None
         spread = sum_tt - sum_t * sum_t / count
-        return Slope((sum_tx - sum_t * sum_x / count) / spread, self.noise_deg / math.sqrt(spread))
+        middle_s, middle_deg = last_s + sum_t / count, last_deg + sum_x / count
+        speed_dps = (sum_tx - sum_t * sum_x / count) / spread
+        return Slope(speed_dps, self.noise_deg / math.sqrt(spread), middle_s, middle_deg)
 
     def place_deg(self, at_s: float, half_s: float) -> float | None:
         """The mean of the readings around that moment; None: there are none."""
