@@ -52,14 +52,23 @@ MEASURED_AFTER_S, STEADY_S = 0.6, 1.5
 
 @dataclass(slots=True)
 class Behind:
-    """How far an axis is behind a pursuer, and for how long the pursuer has run since the axis was level with it."""
+    """How far an axis is behind a pursuer, and for how long the pursuer has run since the axis was level with it.
+
+    An axis that goes backwards is no further behind than one that stands.
+    """
 
     deg: float = 0.0
     for_s: float = 0.0
+    _run_deg: float = 0.0
 
-    def note(self, dps: float, passed_s: float, gone_deg: float) -> None:
-        self.deg = max(0.0, self.deg + dps * passed_s - gone_deg)
-        self.for_s = self.for_s + passed_s if self.deg > 0.0 else 0.0
+    def note(self, dps: float, passed_s: float, gone_deg: float, sure_deg: float) -> None:
+        """`sure_deg`: so far noise alone may seem to move the axis."""
+        self._run_deg += dps * passed_s
+        self.deg = min(max(0.0, self.deg + dps * passed_s - gone_deg), self._run_deg + sure_deg)
+        if self.deg > 0.0:
+            self.for_s += passed_s
+        else:
+            self.for_s = self._run_deg = 0.0
 
 
 @dataclass(slots=True)
@@ -239,14 +248,12 @@ class Estimator:
     def _pursue_driven(self, at_s: float, gone_deg: float, passed_s: float) -> None:
         way = self.relays.direction
         self._from_deg = self.place_deg if self._from_deg is None else self._from_deg
-        self.held.note(self.powered_dps, passed_s, gone_deg * way)
+        self.held.note(self.powered_dps, passed_s, gone_deg * way, self.sure_deg)
         if at_s > self.relays.begun_s + START_S:
-            self.short.note(self.stands_dps, passed_s, gone_deg * way)
+            self.short.note(self.stands_dps, passed_s, gone_deg * way, self.sure_deg)
         if self.place_s - passed_s < self._turns_s:
             return
         self.back_deg = max(0.0, self.back_deg - gone_deg * way - BACK_SHARE * self.reference_dps * passed_s)
-        if self.back_deg > self.sure_deg:
-            self.held = Behind()  # whatever turns it, nothing holds it
         assert self.place_deg is not None
         assert self._from_deg is not None
         least_deg = (self.place_deg - self._from_deg) * way - self.sure_deg
@@ -258,9 +265,9 @@ class Estimator:
         last, from_s = self.relays.last, self.place_s - passed_s
         open_s = self.relays.since_s + RELAY_SETTLES_S + self._behind_s
         if at_s < open_s + COASTS_S and last:
-            self.short.note(0.0, 0.0, gone_deg * last)
+            self.short.note(0.0, 0.0, gone_deg * last, self.sure_deg)
             if self.line is None:
-                self.held.note(0.0, 0.0, gone_deg * last)
+                self.held.note(0.0, 0.0, gone_deg * last, self.sure_deg)
         if not supplied:
             self._supplied_s, self.lost_deg = at_s, dict.fromkeys(BOTH_WAYS, 0.0)
         elif from_s >= max(open_s, self._turns_s + self.motor.lag_s, self._supplied_s + 2.0 * self.motor.lag_s):
@@ -293,7 +300,7 @@ class Estimator:
                 self._measured_dps[was.direction] = abs(line.speed_dps)
                 self._shown_dps = max(self._shown_dps or SLOWEST_DPS, abs(line.speed_dps) - line.error_dps)
         elif self._stopped(min(now_s, self.trend.last_s), was):
-            self.held.deg = max(self.held.deg, self.full_dps)
+            self.held.note(self.full_dps, 1.0, 0.0, 0.0)
 
     def _stopped(self, now_s: float, was: RelayState) -> bool:
         """Whether something held the axis, which had turned at first. A shorter run may be gathering speed."""

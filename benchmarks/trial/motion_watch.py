@@ -119,9 +119,16 @@ class MotionWatch:
     # --- a relay is closed
 
     def _driven(self, at_s: float, angle_deg: float) -> Fault | None:
-        seen, way = self._seen, self._seen.relays.direction
+        seen = self._seen
         slope = seen.trend.slope(at_s - TURNS_S)
         dps = slope.speed_dps if slope else 0.0
+        fault = self._misbehaves(at_s, angle_deg, dps)
+        if fault is not None:
+            seen.short = Behind()  # the next run is judged by itself
+        return fault
+
+    def _misbehaves(self, at_s: float, angle_deg: float, dps: float) -> Fault | None:
+        seen, way = self._seen, self._seen.relays.direction
         if seen.back_deg >= max(seen.sure_deg, BACK_DEG):
             ways = WAYS[self._axis, way], WAYS[self._axis, Direction(-way)]
             measured = f"its motor runs {ways[0]}, the angle goes {ways[1]} at {abs(dps):.1f}°/s"
@@ -132,7 +139,6 @@ class MotionWatch:
         return endless(self._axis, way, at_s - seen.relays.begun_s, self._limits, seen.reference_dps)
 
     def _stands_still(self, way: Direction, angle_deg: float, dps: float) -> Fault:
-        self._seen.short = Behind()  # the next run is judged by itself
         name = WAYS[self._axis, way]
         end_deg = self._limits.max_deg if way > 0 else self._limits.min_deg
         if (end_deg - angle_deg) * way <= NEAR_END_DEG:
