@@ -52,12 +52,13 @@ class StateThread:
             self._again = False
             done = self._state.save()
             with self._state.news:
-                # A stop may have come while the disk was slow: the end waits for it too.
-                if self._ending and not (self._again or self._state.unwritten) and (done or last_try):
+                # A stop may have come while the disk was slow: the end waits for it too, and it is tried twice as well.
+                newest = self._ending and not (self._again or self._state.unwritten)
+                if newest and (done or last_try):
                     self._ended = True
                     self._state.news.notify_all()
                     return
-                last_try = self._ending
+                last_try = newest
                 self._state.news.wait_for(lambda: self._ending or self._state.unwritten, self._looks_s)
 
     def _run_memory(self) -> None:
