@@ -6,16 +6,16 @@ it, or it has fallen behind and still moves on. Else the relay is in doubt until
 should, or a person has looked at it. A sensor that filters or averages shows the axis late, and a sudden stop as a slow
 one: what it shows is counted as far ahead as a motor turns in that time.
 
-Knows how the axis moves (`estimator`), what may hold it (`obstacles`), and the supply. Decides nothing.
+Knows how the axis moves (`estimator`), what may hold it (`standing`), and the supply. Decides nothing.
 """
 
 from __future__ import annotations
 
 from benchmarks.trial.estimator import Estimator
-from benchmarks.trial.obstacles import HOLDS_DEG, STOP_BEYOND_DEG, Obstacles
 from hw.ports import Direction
 from rotator.control.axis.relay_state import BLINK_S, RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
+from rotator.control.axis.standing import HOLDS_DEG, STOP_BEYOND_DEG, Obstacles
 from rotator.control.axis.trend import Slope
 from rotator.control.sky.mount import Range
 from rotator.exchange.motor import Trust
@@ -130,7 +130,7 @@ class OpeningWatch:
         if self._stands_s is None:
             self._stands_s, self._held_up = at_s, self._ended_suddenly()
             if self._moved:
-                self.obstacles.left(self._place_deg)
+                self.obstacles.left(self._place_deg, HOLDS_DEG)
             self._moved = False
         else:
             self.obstacles.drift(gone_deg)
