@@ -1,4 +1,5 @@
-# make run: the box on a simulated Yaesu G-5500. make test: every test. Each sets itself up first.
+# make run: the box on a simulated Yaesu G-5500. make test: what shows a change in a minute and a half. Each sets itself
+# up first.
 
 PYTHON ?= python3
 VENV := .venv
@@ -7,33 +8,36 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests docs reference drills planted scores sectors test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
+.PHONY: run test style check tests docs reference drills planted scores sectors test-search test-quiet test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
 
-# Side by side: mypy keeps one core busy, and the tests at times none.
 test: $(VENV)/.dev
-	@$(MAKE) --no-print-directory --jobs=2 --keep-going check tests || \
-		{ echo "A test failed, or a static check: its words stand among the dots of the tests."; exit 1; }
-
-check: $(VENV)/.dev
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
-	$(BIN)/mypy
-	$(BIN)/lint-imports
-
-# More at once than there are cores, for many tests wait for a foreign program's own pauses. The browser gets a process
-# of its own: its driver keeps an event loop running, in which no test of the server could start one.
-tests: $(VENV)/.compiled
-	@failed=0; set -x; \
-	$(BIN)/pytest -n 3 --dist worksteal $(TESTS) || failed=1; \
-	$(if $(TESTS),,$(BIN)/pytest -n 2 tests/page/test_first_look.py || failed=1;) \
+	@failed=0; \
+	$(MAKE) --no-print-directory style || failed=1; \
+	$(MAKE) --no-print-directory tests || failed=1; \
+	echo "Left to make check: the types. Left to make test-search: what takes long. To make test-quiet: real time."; \
 	exit $$failed
 
-# Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases. `make test` tries an eighth.
+style: $(VENV)/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
+
+check: style
+	$(BIN)/mypy
+
+tests: $(VENV)/.dev
+	$(BIN)/pytest -n 2 --dist worksteal $(if $(TESTS),$(TESTS),-m "not search and not long and not quiet")
+
+# Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases, and each that takes long.
 test-search: $(VENV)/.dev
-	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m "hypothesis or search" tests tests/cli
+	ROTATOR_SEARCH=whole $(BIN)/pytest -n 3 --dist worksteal -m "(hypothesis or search or long) and not quiet" tests tests/cli
+
+# What happens in real time and a busy machine would spoil: links, adapters and processes that stand still or go away.
+test-quiet: $(VENV)/.dev
+	$(BIN)/pytest -m quiet tests tests/rotors/test_proper_end.py
 
 # Each command as a person types it: real terminals, real processes, keys and Ctrl-C; and the box on a fifth of a core.
 test-terminal: $(VENV)/.dev
@@ -51,7 +55,7 @@ test-clients: $(VENV)/.dev
 # Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
 test-rotors: $(VENV)/.dev
 	@failed=0; set -x; \
-	$(BIN)/pytest -n 3 --dist worksteal tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py || failed=1; \
+	$(BIN)/pytest -n 3 --dist worksteal -m "not quiet" tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py || failed=1; \
 	$(BIN)/pytest -n 2 --dist loadfile tests/flights || failed=1; \
 	exit $$failed
 
@@ -85,13 +89,13 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.one_pass docs/img/one-pass.svg
 	$(BIN)/python -m benchmarks.kinds
 	$(BIN)/python -m benchmarks.faults
-	$(BIN)/python -m benchmarks.latency
-	$(BIN)/python -m benchmarks.clients
-	$(BIN)/python -m benchmarks.page
+	$(BIN)/python -m benchmarks.running.busy
+	$(BIN)/python -m benchmarks.running.finger
+	$(BIN)/python -m benchmarks.load
 
 # Hostile bytes on every link of two running boxes, for ten minutes or as long as MINUTES says.
 fuzz: $(VENV)/.dev
-	$(BIN)/python -m benchmarks.fuzz --minutes $(or $(MINUTES),10)
+	$(BIN)/python -m benchmarks.running.fuzz --minutes $(or $(MINUTES),10)
 
 # Twenty simulated hours of drills at random, a new seed each time: what may never happen, on every kind of rotor.
 drills: $(VENV)/.dev
@@ -105,13 +109,13 @@ planted: $(VENV)/.dev
 scores: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.scores $(if $(SEED),--seed $(SEED))
 
-# Ten thousand moves, plans and waits beside forbidden sectors and horizon masks, or MOVES: none may enter one.
+# Twenty simulated hours of drills, or HOURS, each beside forbidden sectors, half of them with a horizon: none may enter one.
 sectors: $(VENV)/.dev
-	$(BIN)/python -m benchmarks.sectors --moves $(or $(MOVES),10000) $(if $(SEED),--seed $(SEED))
+	$(BIN)/python -m benchmarks.drills --sectors --hours $(or $(HOURS),20) $(if $(SEED),--seed $(SEED))
 
 # The busy box for an hour in real time, or HOURS: memory, files and threads must stay.
 soak: $(VENV)/.dev
-	$(BIN)/python -m benchmarks.soak --hours $(or $(HOURS),1)
+	$(BIN)/python -m benchmarks.running.soak --hours $(or $(HOURS),1)
 
 # Do the tests see a change of the source? Once a week; SAMPLE=20 tries twenty places a file, FILES some files.
 mutants: $(VENV)/.mutants
@@ -159,11 +163,6 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps 'moteus>=1.1,<2'
 	@touch $@ $(VENV)/.run
-
-# Once for all processes of the tests: in a fresh clone each of them would compile every file, all at the same time.
-$(VENV)/.compiled: $(VENV)/.dev
-	-@$(BIN)/pytest -qq --collect-only >/dev/null
-	@touch $@
 
 $(VENV)/.docs: $(VENV)/.dev
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[docs]'

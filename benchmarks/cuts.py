@@ -54,7 +54,7 @@ def flown(each: Pass, folder: Path, dice: random.Random) -> tuple[int, int, int]
     path = folder / counts.FILE_NAME
     path.unlink(missing_ok=True)
     start_deg = {Axis.AZIMUTH: each.rows[0][1], Axis.ELEVATION: 2.0}
-    file = CountsFile(path, config.pulses.cams(tuple(Axis)))
+    file = CountsFile(path, config.kind.cams(tuple(Axis)))
     for axis, angle_deg in start_deg.items():
         file.home(axis, angle_deg)
     clock = SimClock(1000.0)
@@ -76,7 +76,7 @@ def flown(each: Pass, folder: Path, dice: random.Random) -> tuple[int, int, int]
         now = path.stat().st_mtime_ns
         writes, before = writes + (now != before), now
         if cycle in cuts:
-            kept = CountsFile(path, config.pulses.cams(tuple(Axis))).load()
+            kept = CountsFile(path, config.kind.cams(tuple(Axis))).load()
             lost += any(place.standing is not Standing.KNOWN for place in kept.values())
             rests = dict(zip(Axis, station.world.rests(), strict=True))
             known = [axis for axis in Axis if kept[axis].standing is Standing.KNOWN]

@@ -15,6 +15,7 @@ from itertools import pairwise
 from multiprocessing import get_context
 
 from benchmarks.passes import mean
+from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.rehearsal.flight import fly, plant_maker
@@ -42,8 +43,10 @@ class Kind:
 
     def config(self) -> Config:
         """The profile's, on a simulated rotor."""
-        config = parse(shipped(self.profile), self.profile)
-        update: dict[str, object] = {"rotor": config.rotor.model_copy(update={"hardware": "sim"})}
+        config = simulated(parse(shipped(self.profile), self.profile))
+        update: dict[str, object] = {}
+        if not config.elevation.fitted:  # with a second one, on its side
+            update["elevation"] = type(config.elevation)()
         if self.overlap:
             update["azimuth"] = config.azimuth.model_copy(update={"max_deg": 450.0})
         return config.model_copy(update=update)
@@ -51,12 +54,18 @@ class Kind:
 
 KINDS = (
     Kind("relays and pots (simulated G-5500)", "simulated"),
+    Kind("the same with a speed input (g1000)", "g1000"),
     Kind("U-100, counting (u100)", "u100"),
     Kind("the same with 450° of azimuth", "u100", overlap=True),
     Kind("moteus (isel), `W` in whole degrees", "isel"),
     Kind("moteus (isel), `P %.2f`", "isel", via="rotctld"),
+    Kind("H-bridges (slew-drive), `P %.2f`", "slew-drive", via="rotctld"),
     Kind("hobby servos (servos)", "servos"),
     Kind("digital pot (orbit360)", "orbit360"),
+    Kind("a controller in whole degrees (controller), `P %.2f`", "controller", via="rotctld"),
+    Kind("two from which nothing comes back (tv-rotator)", "tv-rotator"),
+    Kind("steppers (satnogs), `W` in whole degrees", "satnogs"),
+    Kind("steppers (satnogs), `P %.2f`", "satnogs", via="rotctld"),
 )
 
 

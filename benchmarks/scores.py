@@ -4,7 +4,6 @@ Plays simulated axes at random, from fixed seeds and from new ones: healthy ones
 relays weld. Injects every fault of `benchmarks.faults`, and flies the passes of `benchmarks.passes`. `--whole` plays
 six times as many worlds, and looks whether the drills still see every planted bug; that takes some minutes. All of it
 is simulated, and the same on every machine, but for the new seeds. `--seed` plays those of an earlier run again.
-`--trial` gives the simulated axes the watch of `benchmarks.trial`, which may take the place of today's.
 """
 
 from __future__ import annotations
@@ -21,9 +20,7 @@ from benchmarks.drills.planted.hunt import seen
 from benchmarks.drills.planted.patch import bugs
 from benchmarks.faults import DRILLS, worst
 from benchmarks.passes import TOLERANCES_DEG, fly_all, mean
-from benchmarks.trial.motion_watch import MotionWatch as TrialWatch
 from benchmarks.weld_world import WeldWorld
-from rotator.control.axis import relay_gate
 
 WORLDS, WHOLE = 60, 360
 WORLD_S = 90.0
@@ -127,10 +124,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seed", type=int, default=None, help="of the new worlds; a new one, unless it is given")
     parser.add_argument("--whole", action="store_true", help=f"{WHOLE} worlds, not {WORLDS}; and the planted bugs")
-    parser.add_argument("--trial", action="store_true", help="with the watch that is on trial")
     asked = parser.parse_args(arguments)
-    if asked.trial:
-        vars(relay_gate)["MotionWatch"] = TrialWatch
     seed = random.SystemRandom().randrange(1, 10**6) if asked.seed is None else asked.seed
     print(f"seed {seed}\n\n| score | worlds | now | reference |\n|---|---|---|---|", flush=True)
     for score in scores(seed, whole=asked.whole):

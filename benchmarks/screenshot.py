@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import io
 import os
 import tempfile
 from pathlib import Path
 
-from benchmarks.screen_svg import screen_svg
+from rich.console import Console
+
 from rotator import __version__
 from rotator.box.app import App
 from rotator.config.load import parse
@@ -61,7 +63,9 @@ def _render(app: App, trail: Trail) -> str:
     wires = [link.wire for link in app.links]
     around = terminal.Surroundings(app.mount, trail.ways)
     picture = terminal.picture(__version__, app.loop.status, world.lcd.text(), wires, [], around=around)
-    return screen_svg(picture, "rotator run", COLUMNS)
+    console = Console(width=COLUMNS, file=io.StringIO(), record=True)
+    console.print(picture)
+    return console.export_svg(title="rotator run")
 
 
 CONFIG = """

@@ -4,8 +4,7 @@ A train is satellites of one launch on one orbit, seconds to minutes apart. The 
 not the one that a program sends, and KNOWN other satellites. The gaps are drawn from 1 s to 3 min, the orbits from real
 ones and ones like them, the clock of the program from 5 s behind to 5 s ahead; it rounds to whole degrees or tenths, or
 cuts off, and begins at the rise, up to a minute before it, or later. For each range of gaps: how many streams were
-named as a neighbour, how soon, how many of them until the set, and by how much the antenna was off meanwhile, beside
-the error of the stream.
+named as a neighbour.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from benchmarks.numbers import numbers
@@ -22,9 +21,8 @@ from benchmarks.recognition_delay import UNSTEADY_S, Rise, rises
 from rotator.exchange.orders import Aim
 from rotator.exchange.sources import Source
 from rotator.orbits.elements import Elements
-from rotator.orbits.recognition import Departed, Recognised, StreamWatch
+from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
-from rotator.orbits.sight import Sight
 from tests.orbits.streams import whole
 
 STREAMS, KNOWN = 200, 20
@@ -59,21 +57,13 @@ class Train:
         return min(abs(self.rise.ahead_s + gap_s) for gap_s in gaps_s)
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Outcome:
-    """`after_s`: the time from the first order to a wrong name. `antenna_deg`, `stream_deg`: how far the neighbour and
-    the orders were from the satellite while it was up and named wrongly."""
+    """`wrong`: the stream was named as a known neighbour."""
 
     gap_s: float
     seems_off_s: float
-    after_s: float = math.inf
-    to_the_set: bool = False
-    antenna_deg: list[float] = field(default_factory=list)
-    stream_deg: list[float] = field(default_factory=list)
-
-    @property
-    def wrong(self) -> bool:
-        return math.isfinite(self.after_s)
+    wrong: bool
 
 
 def behind(elements: Elements, late_s: float, number: int) -> Elements:
@@ -108,7 +98,7 @@ def trains(
 
 def outcome(dice: random.Random, train: Train, elements: list[Elements]) -> Outcome:
     """What the box makes of a stream of the one satellite of the train that it does not know."""
-    rise, found = train.rise, Outcome(train.gap_s, train.seems_off_s)
+    rise = train.rise
     known = [each for each in elements if each is not rise.elements] + list(train.known)
     dice.shuffle(known)
     likely = [each.name for each in dice.sample(known, 8)] if dice.random() < 0.5 else []
@@ -117,39 +107,12 @@ def outcome(dice: random.Random, train: Train, elements: list[Elements]) -> Outc
     begin_s = at_s = rise.aos_s + dice.choice(
         (dice.uniform(0, period_s), -dice.uniform(0, EARLY_S), dice.uniform(0, LATE_S))
     )
-    named: Satellite | None = None
+    wrong = False
     while at_s < begin_s + LONGEST_S and ((ordered := truth.sight(at_s)).elevation_deg > 0 or at_s < rise.aos_s + 1):
-        utc_s = at_s - rise.ahead_s
         aim = Aim(rounds(ordered.azimuth_deg) % 360, max(0.0, rounds(ordered.elevation_deg)))
-        match watch.hear(Source("gs232b"), aim, utc_s):
-            case Recognised(satellite=Satellite() as named):
-                found.after_s = min(found.after_s, at_s - begin_s)
-            case Departed():
-                named = None
-        if named is not None and (seen := truth.sight(utc_s)).elevation_deg > 0:
-            sent = Sight(aim.azimuth_deg or 0.0, aim.elevation_deg or 0.0, math.inf)
-            found.antenna_deg.append(seen.apart_deg(named.sight(utc_s)))
-            found.stream_deg.append(seen.apart_deg(sent))
+        wrong |= isinstance(watch.hear(Source("gs232b"), aim, at_s - rise.ahead_s), Recognised)
         at_s += period_s + dice.uniform(-UNSTEADY_S, UNSTEADY_S)
-    found.to_the_set = named is not None
-    return found
-
-
-def line(least_s: float, most_s: float, found: list[Outcome]) -> str:
-    wrong = sorted((each for each in found if each.wrong), key=lambda each: each.after_s)
-    text = f"{least_s:3g} to {most_s:3g} s apart: {len(found):4} streams, {len(wrong):3} named as a neighbour"
-    if not wrong:
-        return text
-    antenna, stream = ([deg for each in wrong for deg in getattr(each, f"{of}_deg")] for of in ("antenna", "stream"))
-    return (
-        f"{text}, the soonest after {wrong[0].after_s:.0f} s, {sum(each.to_the_set for each in wrong)} until the set; "
-        f"meanwhile {rms(antenna):.2f}° off and {max(antenna, default=0.0):.1f}° at most, "
-        f"the stream {rms(stream):.2f}° and {max(stream, default=0.0):.1f}°"
-    )
-
-
-def rms(angles_deg: list[float]) -> float:
-    return math.sqrt(sum(deg * deg for deg in angles_deg) / max(1, len(angles_deg)))
+    return Outcome(train.gap_s, train.seems_off_s, wrong)
 
 
 def main(count: int, seed: int, known: int) -> None:
@@ -157,7 +120,8 @@ def main(count: int, seed: int, known: int) -> None:
     elements = catalogue(dice, known)
     found = [outcome(dice, each, elements) for each in trains(dice, elements, count)]
     for least_s, most_s in pairwise(LIMITS_S):
-        print(line(least_s, most_s, [each for each in found if least_s <= each.gap_s < most_s]))
+        these = [each.wrong for each in found if least_s <= each.gap_s < most_s]
+        print(f"{least_s:3g} to {most_s:3g} s apart: {len(these):4} streams, {sum(these):3} named as a neighbour")
     hidden = [each for each in found if each.seems_off_s <= HIDDEN_S]
     told = [each for each in found if each.seems_off_s > HIDDEN_S]
     print(

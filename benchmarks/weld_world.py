@@ -105,16 +105,17 @@ class WeldWorld:
         self.healthy, self._calibrated = healthy, calibrated
         self._believed_dps, self.high_deg = chance.choice(((6.0, 450.0), (2.7, 180.0)))
         speed_dps = self._believed_dps * chance.uniform(0.3, 1.5)
-        # One that coasts past its limits by more than half a degree is not healthy: it is set up wrongly.
-        lag_s = min(chance.choice((0.05, 0.1, 0.15, 0.3, 0.5)), (0.17 * self._believed_dps + 0.4) / speed_dps)
+        lag_s = chance.choice((0.05, 0.1, 0.15, 0.3, 0.5))
         self._noise_deg = chance.choice((0.02, 0.1, 0.1, 0.2))
         self.now_s = 1000.0
         high_deg = self.high_deg
         near_deg = chance.uniform(0.0, 5.0)
         start_deg = chance.choice((0.0, high_deg, chance.uniform(0.0, high_deg), high_deg - near_deg))
         if not calibrated:
-            start_deg = high_deg / 2.0  # where its stops are is not known: it meets none
+            start_deg = high_deg / 2.0  # where its stops are is not known to the box: the world ends before them
         delay_s = chance.choice((0.005, 0.015, 0.03))
+        # One that coasts past its limits by more than half a degree is not healthy: it is set up wrongly.
+        lag_s = min(lag_s, (0.17 * self._believed_dps + 0.4) / speed_dps - delay_s - CYCLE_S)
         self.motor = SimMotor(MotorSpec(speed_dps, lag_s, delay_s, 0.5, -2.0, high_deg + 2.0), start_deg, self.now_s)
         self._relays = Relays(self.motor, chance.random() < 0.4, chance.choice((0.05, 0.5)))
         self._relays.supply(on=False, now_s=self.now_s)
@@ -128,13 +129,18 @@ class WeldWorld:
 
     def play(self, seconds: float) -> None:
         end_s = self.now_s + seconds
-        while self.now_s < end_s and self.motor.shorted_s == 0.0:
+        while self.now_s < end_s and self.motor.shorted_s == 0.0 and not self._at_unknown_stop:
             self._order()
             if not self.healthy:
                 self._strike()
             pause_s = self.now_s + self.chance.choice(PAUSES_S)
             while self.now_s < pause_s:
                 self.cycle()
+
+    @property
+    def _at_unknown_stop(self) -> bool:
+        spec = self.motor.spec
+        return not self._calibrated and not spec.stop_low_deg + 1.0 < self.motor.shaft_deg < spec.stop_high_deg - 1.0
 
     def _program(self, trusts: Trusts) -> SwitchedAxis:
         line = Calibration(((0.05, 0.0), (0.95, self.high_deg))) if self._calibrated else None

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from docs import session
-from rotator.config.reference import reference
+from docs.keys import reference
 from rotator.control import rights
 from rotator.doctor.checks import checks_table
 from rotator.protocols.console import VERBS

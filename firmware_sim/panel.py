@@ -39,7 +39,9 @@ class PanelSpec:
     reference: int | None = None
     lamps: Mapping[str, int] = field(default_factory=dict)
     meters: Mapping[str, int] = field(default_factory=dict)
+    adc_bus: int = 1
     adc_address: int = 0x49
+    outputs_bus: int = 1
     outputs_address: int = 0x41
     supply_v: float = 3.3
     meter_full_share: float = 1.0
@@ -60,9 +62,13 @@ class PanelSpec:
 
 
 class SimPanel(Fallible):
-    """Connects its switches to `gpio`. Attaches its converter and its output chip to `bus` if the spec uses them."""
+    """Connects its switches to `gpio`. Attaches its converter and its output chip to the I2C buses, `buses` by number,
+    if the spec uses them.
+    """
 
-    def __init__(self, spec: PanelSpec, gpio: SimGpio, bus: SimI2CBus, clock: Callable[[], float]) -> None:
+    def __init__(
+        self, spec: PanelSpec, gpio: SimGpio, buses: Callable[[int], SimI2CBus], clock: Callable[[], float]
+    ) -> None:
         self.spec = spec
         self.supply_v = spec.supply_v
         self._lock = threading.RLock()
@@ -86,12 +92,12 @@ class SimPanel(Fallible):
             if channel is not None:
                 self.adc.inputs[channel] = volts
         if any(channel is not None for channel, _ in inputs):
-            bus.attach(spec.adc_address, self.adc)
+            buses(spec.adc_bus).attach(spec.adc_address, self.adc)
         if spec.lamps or spec.meters:
-            bus.attach(spec.outputs_address, self.board)
+            buses(spec.outputs_bus).attach(spec.outputs_address, self.board)
         gpio.on_look.append(self._catch_up)
         self._wire_up()
-        self.faults = self._fault_table(bus)
+        self.faults = self._fault_table(buses(spec.adc_bus), buses(spec.outputs_bus))
 
     # --- what the operator does
 
@@ -191,7 +197,7 @@ class SimPanel(Fallible):
     def _advance(self) -> None:
         """Nothing to do: no part of a panel moves by itself."""
 
-    def _fault_table(self, bus: SimI2CBus) -> dict[str, SimFault]:
+    def _fault_table(self, adc_bus: SimI2CBus, outputs_bus: SimI2CBus) -> dict[str, SimFault]:
         """Each fault is independent of the others; `jog-shorted` hides `jog-wire-broken`."""
         spec = self.spec
         wires = (
@@ -199,13 +205,16 @@ class SimPanel(Fallible):
             *(f"{axis}-knob-{wire}-broken" for axis in self._knobs for wire in ("wire", "supply", "ground")),
         )  # fmt: skip
         return {name: self._wire_fault(name) for name in wires} | {
-            "adc-gone": SimFault(lambda: bus.gone.add(spec.adc_address), lambda: bus.gone.discard(spec.adc_address)),
+            "adc-gone": SimFault(
+                lambda: adc_bus.gone.add(spec.adc_address), lambda: adc_bus.gone.discard(spec.adc_address)
+            ),
             "outputs-gone": SimFault(
-                lambda: bus.gone.add(spec.outputs_address), lambda: bus.gone.discard(spec.outputs_address)
+                lambda: outputs_bus.gone.add(spec.outputs_address),
+                lambda: outputs_bus.gone.discard(spec.outputs_address),
             ),
             "outputs-dip": self._single_fault(self._dip),
             "supply-sags": self._fault_of(self, "supply_v", 0.9 * spec.supply_v, spec.supply_v),
-            "bus-hung": SimFault(bus.hang, bus.release),
+            "bus-hung": SimFault(adc_bus.hang, adc_bus.release),
         }
 
     def _wire_fault(self, name: str) -> SimFault:

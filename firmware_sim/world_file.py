@@ -42,6 +42,8 @@ class WorldState:
     """The two rows of the display; empty: there is none."""
     parts: dict[str, float] = field(default_factory=dict)
     """What the rotor's parts keep while they have power, by name. Empty after a power cut."""
+    brake_harm: tuple[float, int] = (0.0, 0)
+    """How long a motor was fed against its brake, and how often a brake fell on a turning shaft. Must stay 0."""
 
     @staticmethod
     def of(rotor: SimRotor, now_s: float) -> WorldState:
@@ -55,6 +57,7 @@ class WorldState:
             rotor.shorted_s,
             tuple(rotor.lcd.text()) if rotor.lcd else (),
             rotor.kept(),
+            rotor.brake_harm,
         )
 
 
@@ -78,6 +81,8 @@ def read(path: Path) -> WorldState | None:
         if content.pop("format") != FORMAT:
             raise ValueError(f"its format is not {FORMAT!r}")
         pairs = {key: tuple(content[key]) for key in ("antenna_deg", "shafts_deg", "rests_deg", "drives", "lcd")}
+        if "brake_harm" in content:
+            pairs["brake_harm"] = tuple(content["brake_harm"])
         return WorldState(**(content | pairs))
     except (KeyError, TypeError, AttributeError) as fault:
         raise ValueError(f"{path}: not a simulated world: {fault}") from fault

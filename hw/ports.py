@@ -9,7 +9,7 @@ tests. Angles in degrees (`_deg`) are on the rotor's own scale, 0 to 450 for exa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum
 from typing import NamedTuple, Protocol, runtime_checkable
@@ -85,6 +85,9 @@ class LeaseWatch(Protocol):
     def rest(self) -> None:
         """No relay is closed any more."""
 
+    def unbraked(self, lines: Collection[str]) -> None:
+        """These brakes are off, or about to be; all others hold. Raises HardwareError without a watch."""
+
 
 # --- sensors
 
@@ -108,6 +111,58 @@ class KnowsSince(Protocol):
     @property
     def since_s(self) -> float:
         """That reading is of no earlier moment."""
+
+
+BoardAxes = tuple[float, float, float]
+"""What a chip measures along its x, y and z."""
+
+
+class Accelerometer(Protocol):
+    """A chip that feels gravity."""
+
+    name: str
+    """The chip with its address, for messages."""
+
+    def gravity_g(self) -> BoardAxes:
+        """In g: at rest 1 g upwards. May take some milliseconds, 0.1 s at first. Raises HardwareError."""
+
+    def restart(self) -> None:
+        """Set the chip up anew before its next reading."""
+
+
+class Magnetometer(Protocol):
+    """A chip that feels the magnetic field."""
+
+    name: str
+    """The chip with its address, for messages."""
+
+    def field_ut(self) -> BoardAxes:
+        """In µT. May take some milliseconds, 0.1 s at first. Raises HardwareError; the next call tries again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ellipse:
+    """On which the field lies over a whole turn of the mast: its middle and its half axes, ahead and to the left, in
+    µT. Iron that turns with the board shifts it, and stretches it.
+    """
+
+    centre_ut: tuple[float, float]
+    radius_ut: tuple[float, float]
+
+    def unit(self, field_ut: tuple[float, float]) -> tuple[float, float]:
+        """The field as a share of the ellipse: on the unit circle where nothing else disturbs it."""
+        (ahead, left), (x, y), (a, b) = field_ut, self.centre_ut, self.radius_ut
+        return (ahead - x) / a, (left - y) / b
+
+
+@runtime_checkable
+class FeelsField(Protocol):
+    """An angle sensor that goes by the earth's magnetic field."""
+
+    ellipse: Ellipse | None
+    """What has been learnt of the iron around it; None: nothing yet, and the field is taken as it is."""
+    field_ut: tuple[float, float] | None
+    """The field of the latest reading, ahead and to the left; None: there was none."""
 
 
 class AnalogInputs(Protocol):

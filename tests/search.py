@@ -1,7 +1,8 @@
-"""How far a search goes: `make test` tries an eighth of the examples of each, `make test-search` all of them.
+"""How far a search goes: all of its examples in `make test-search`, an eighth of them wherever else it runs.
 
-Knows numbers of examples alone. A search is a test with hypothesis, or one with the mark `search`: it draws its own
-cases, or sweeps over many that are dear, each a world of its own. What it looks for is the same in both.
+Knows numbers of examples alone. A search is a test with hypothesis, of which `make test` draws an eighth, or one with
+the mark `search`, which `make test` leaves out: it draws its own cases, or sweeps over many that are dear, each a world
+of its own. What it looks for is the same in both.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import TypeVar
 
 WHOLE = os.environ.get("ROTATOR_SEARCH") == "whole"
 SHARE, LEAST = 8, 10
-"""`make test` tries one case in so many, but of drawn examples no fewer than these."""
+"""One case in so many, but of drawn examples no fewer than these."""
 Case = TypeVar("Case")
 
 

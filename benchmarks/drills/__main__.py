@@ -14,7 +14,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from benchmarks.drills.boxes import KINDS
-from benchmarks.drills.campaign import Found, Tally, run, verdict
+from benchmarks.drills.campaign import Found, Tally, run, seeds
 from benchmarks.drills.draw import draw
 from benchmarks.drills.play import play
 from benchmarks.drills.script import Drill
@@ -28,13 +28,13 @@ def main() -> None:
     if given.replay:
         sys.exit(_replay(given.replay))
     seed = random.SystemRandom().randrange(1 << 31) if given.seed is None else given.seed
-    if not given.json:
-        print(f"seed {seed}", flush=True)
+    drills = seeds(seed, given.hours, given.kind or "", beside_sectors=given.sectors)
     if given.json:
-        tallies, found = run(seed, given.hours, given.kind or "", first=given.first)
+        tallies, found = run(drills, first=given.first)
         print(json.dumps(_as_dict(seed, tallies, found)))
     else:
-        tallies, found = run(seed, given.hours, given.kind or "", first=given.first, tell=_tell)
+        print(f"seed {seed}", flush=True)
+        tallies, found = run(drills, first=given.first, tell=_tell)
         print(_table(tallies))
     sys.exit(bool(found))
 
@@ -44,6 +44,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--seed", type=int, help="of the whole campaign; left out, a new one, which is printed")
     parser.add_argument("--hours", type=float, default=20.0, help="simulated hours, over all kinds (20)")
     parser.add_argument("--kind", choices=list(KINDS), help="only this kind of rotor")
+    parser.add_argument("--sectors", action="store_true", help="each box beside forbidden sectors")
     parser.add_argument("--first", action="store_true", help="end at the first violation, and do not make it small")
     parser.add_argument("--json", action="store_true", help="one JSON object")
     parser.add_argument(
@@ -59,10 +60,10 @@ def _replay(name: str) -> int:
     except ValueError as fault:
         print(f"{name}: {fault}", file=sys.stderr)
         return 2
-    print("\n".join(play(drill).said))
-    found = verdict(drill)
-    print("\n".join(map(str, found)) or "nothing found")
-    return int(bool(found))
+    outcome = play(drill)
+    print(*outcome.said, sep="\n")
+    print("\n".join(map(str, outcome.violations)) or "nothing found")
+    return int(bool(outcome.violations))
 
 
 def _drawn(name: str) -> Drill:

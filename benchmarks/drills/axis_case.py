@@ -29,6 +29,8 @@ class AxisCase:
     high_deg: float
     tolerance_deg: float
     slack_deg: float = 1.0
+    fitted: bool = True
+    """Whether the rotor has this axis, by its file."""
     shift_deg: float = 0.0
     """Added to an angle on the rotor's own scale, it gives true degrees."""
     trusted: bool = True
@@ -37,6 +39,8 @@ class AxisCase:
     """The hardware has led the model of this axis astray: the axis then moves to the angle of the model."""
     feels: bool = True
     """Whether the box has a reading of this axis. Without one it cannot know that the axis stands."""
+    keeps_place: bool = False
+    """An encoder on the output shows the angle also after a power cut of its controller."""
     counts: bool = False
     blind: bool = False
     """The contact of a counted axis is stuck: nothing shows that a welded relay turns the axis."""
@@ -44,6 +48,12 @@ class AxisCase:
     """The ends, 1 or -1, that a limit switch shows, also where the axis was never set up."""
     repeats: bool = False
     """The sensor repeats one reading: other faults of the sensor do not show."""
+    befallen: bool = False
+    """A trouble that no box can notice has spoilt its angle, or may have."""
+    unheard: bool = False
+    """Its ready-made controller does not hear the box, or does not obey its stop."""
+    runs_down: bool = False
+    """The program has died, and its ready-made controller goes on to its last target."""
     deaf: bool = False
     """The chip of the axis's control box does not hear: only a cut of its supply stops the axis."""
     misplaced: bool = False
@@ -76,6 +86,9 @@ class AxisCase:
     stood_s: float = 0.0
     """For how long a counted axis stood in short runs, taken together: `patience_s` of them is a try."""
     shorted_s: float = 0.0
+    brake_harm: tuple[float, int] = (0.0, 0)
+    sped_s: float = 0.0
+    """For how long its speed input has been above its lowest, with the motor off."""
     alone_s: float = 0.0
     """For how long presses of an axis that was never set up, of which no person was one, have not moved it."""
     alone_deg: float = math.inf
@@ -116,6 +129,12 @@ class AxisCase:
         self.pressed_s = self.standing_s or self.pressed_s
         self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
+        self.runs_down = False
+
+    def stopped(self, winds_down_s: float) -> None:
+        """The next order is a new try, also if the current never stopped."""
+        self.beyond_s = self.standing_s = 0.0
+        self.runs_down, self.winds_down_s = False, winds_down_s
 
     def press(self) -> None:
         """A person who sets the axis up watches it touch its stops: each press is a try of its own."""

@@ -8,7 +8,7 @@ state folder outlive it. Does not know what is right or wrong.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import partial
 
 from benchmarks.drills.browser import Browser
@@ -20,6 +20,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import Axis
 from hw.safety.lines_off import switch_off
+from hw.safety.off_at_once import BRAKE_AFTER_S
 from rotator.assembly.hands import hands
 from rotator.assembly.kept_files import build_learnt, build_relays, build_tries
 from rotator.assembly.panel import panel_thread
@@ -33,6 +34,7 @@ from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.panel_words import parse_hand
 from rotator.protocols.session import Session
+from rotator.rotors.relays import RelayRotor
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.card_watch import CardWatch
 from rotator.runtime.client import Client
@@ -52,12 +54,16 @@ class DrilledSentinel:
         self._clock = clock
         self._leased_s: float | None = None
         """When a lease was last renewed; None: all relays are open."""
+        self.brakes_off: Collection[str] = ()
 
     def renew(self) -> None:
         self._leased_s = self._clock()
 
     def rest(self) -> None:
         self._leased_s = None
+
+    def unbraked(self, lines: Collection[str]) -> None:
+        self.brakes_off = lines
 
     @property
     def kills(self) -> bool:
@@ -87,7 +93,7 @@ class Box:
         self.alive = True
         self.sentinel = DrilledSentinel(clock)
         if world is not None:
-            world.bus.open()
+            world.open_buses()
         self.station = Station(
             config,
             clock,
@@ -205,6 +211,10 @@ class Box:
             self.leave(who)
         self.loop.stop()
         self.station.rotor.off()
+        if isinstance(rotor := self.station.rotor, RelayRotor):
+            # In real time the guard's thread engages the brakes, and the end waits for it.
+            rotor.bank.leave(BRAKE_AFTER_S)
+            self._clock.sleep(BRAKE_AFTER_S if rotor.bank.released else 0.0)
         if self.panel:
             self.panel.dark()
         self.station.close()
@@ -221,7 +231,8 @@ class Box:
         self.world.gpio.bury_process()
         self._clock.sleep(SENTINEL_S)
         if self.station.lines:
-            switch_off(self.world.gpio, self.station.lines, self._clock, self._clock.sleep, 0.0)
+            clock, brakes = self._clock, self.sentinel.brakes_off
+            switch_off(self.world.gpio, self.station.lines, clock, clock.sleep, 0.0, unbraked=brakes)
 
     def _session(self, who: str) -> tuple[Session, Client]:
         if who not in self._sessions:
@@ -237,7 +248,7 @@ class Box:
             return ConsoleSession(client, hands(self.world), self.tracking.tracker)
         place = {"udp": "127.0.0.1:12000"} if who == "pstrotator" else {"tcp": "127.0.0.1:4000"}
         calibrates = {"may_calibrate": True} if who == "gs232a" else {}
-        return session_maker(Link.model_validate({"protocol": PROTOCOLS[who], **place, **calibrates}), client)
+        return session_maker(Link.model_validate({"protocol": PROTOCOLS[who], **place, **calibrates}))(client)
 
     def _panel(self, state: State) -> PanelThread:
         parts = self.station.panel

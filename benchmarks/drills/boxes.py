@@ -27,8 +27,13 @@ SAMPLES = ("pot-crackles", "pot-spikes", "pot-bursts")
 CONVERTER = ("adc-noisy", "adc-gaps")
 RELAYS = ("motor-stalled", "motor-reversed", "hand-turns")
 BOTH = ("azimuth", "elevation")
+CHIP = ("chip-silent", "chip-dips", "chip-unpowered", "driver-hot", "driver-warm", "coil-short", "coil-open")
+LINE = ("controller-deaf", "controller-garbled", "controller-slow", "controller-unplugged", "controller-ignores-stop")
+SHORTED = ("azimuth-bridge-shorted-cw", "azimuth-bridge-shorted-ccw", "elevation-bridge-shorted-up")
+COUNTED = ("relay-pulse", "h-bridge", "stepper", "relay-timed")
+"""Kinds whose angle a person confirms at first, or finds at an end."""
 FIRMWARE = ("gate-driver", "over-voltage", "encoder", "over-temperature", "under-voltage", "position-invalid", "timing")
-CHIMNEY_SHARE = 0.25
+CHIMNEY_SHARE, MASKS_SHARE = 0.25, 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +88,33 @@ ROTORS = (
         geared=False,
     ),
     Rotor(
+        kind="h-bridge",
+        profile="slew-drive",
+        faults=("motor-stalled", "motor-reversed", "encoder-dead", "encoder-channel-stuck"),
+        shared=("pwm-refuses", *SHORTED),
+        top_deg=(360.0, 90.0),
+    ),
+    Rotor(
+        kind="controller",
+        profile="controller",
+        faults=("knob-turned", "knob-turned", "jumps", "motor-stalled", "motor-slow"),
+        shared=LINE,
+    ),
+    Rotor(
+        kind="stepper",
+        profile="satnogs",
+        faults=(*CHIP, "held", "held", "switch-broken"),
+        shared=("enable-broken",),
+        top_deg=(360.0, 90.0),
+        geared=False,
+    ),
+    Rotor(
+        kind="relay-timed",
+        profile="tv-rotator",
+        faults=("motor-slow", *RELAYS),
+        relays=True,
+    ),
+    Rotor(
         kind="moteus",
         profile="isel",
         faults=("silent", "jammed", "power-cycled", *FIRMWARE),
@@ -107,16 +139,25 @@ class Mast:
     has_switches: bool
     has_pots: bool
     commissioning: str
+    alone: str = ""
+    """The only axis that the rotor has; empty: it has both."""
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        return (self.alone,) if self.alone else BOTH
 
 
-def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
+def draw_mast(chance: random.Random, rotor: Rotor, *, beside_sectors: bool = False) -> Mast:
+    """`beside_sectors`: one to three of them for certain, often under a horizon of trees and roofs."""
     top_deg = rotor.top_deg
     if rotor.kind in ("relay-pot", "moteus", "relay-pulse"):
         top_deg = (chance.choice((360.0, 450.0)), chance.choice((90.0, 180.0)) if rotor.relays else 90.0)
-    has_panel, has_switches = chance.random() < 0.25, chance.random() < 0.25
+    has_panel, has_switches = chance.random() < 0.25, chance.random() < 0.25 and rotor.kind != "relay-timed"
     tables: dict[str, Any] = {"azimuth": {"max_deg": top_deg[0]}, "elevation": {"max_deg": top_deg[1]}, "sim": {}}
     if has_panel:
         tables["panel"] = PANEL
+    if rotor.kind == "h-bridge":  # away from the pins of the panel and of the switches
+        tables["bridge"] = {"elevation": {"pwm": 13, "b": 10}}
     low_deg = 0.0
     if has_switches:
         tables["limits"] = SWITCHES
@@ -143,8 +184,12 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
         start_deg = (90.0, 90.0)
     if rotor.kind == "moteus" and chance.random() < 0.8:
         tables["control"] = {"rate_hz": 20}  # as every other kind; its own 50 Hz costs more than twice as much
-    if chance.random() < CHIMNEY_SHARE:
-        _sector(chance, tables, start_deg, top_deg)
+    if chance.random() < CHIMNEY_SHARE or beside_sectors:
+        for _ in range(chance.choice((1, 2, 3)) if beside_sectors else 1):
+            _sector(chance, tables, start_deg, top_deg)
+    if beside_sectors and chance.random() < MASKS_SHARE:
+        heights_deg = [[float(azimuth), round(chance.uniform(0.0, 15.0), 1)] for azimuth in range(0, 360, 45)]
+        tables["mount"] = {**tables.get("mount", {}), "horizon": heights_deg}
     if chance.random() < 0.1:
         tables["sky"] = {"follow": [{"name": draw_arc(chance, chance.uniform(0.0, 200.0))} for _ in range(2)]}
     commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.15 else ""
@@ -168,8 +213,11 @@ def _sector(
         if not any(
             all(low - 4.0 < at < high + 4.0 for at, (low, high) in zip(place, spans, strict=True)) for place in parks
         ):
-            sector = {"name": "chimney", "azimuth_deg": spans[0], "elevation_deg": spans[1]}
-            tables["mount"] = {**tables.get("mount", {}), "forbidden": [sector]}
+            mount = tables.setdefault("mount", {})
+            before = mount.get("forbidden", [])
+            name = f"chimney {len(before) + 1}" if before else "chimney"
+            sector = {"name": name, "azimuth_deg": spans[0], "elevation_deg": spans[1]}
+            tables["mount"] = {**mount, "forbidden": [*before, sector]}
             return
 
 
@@ -190,7 +238,7 @@ def _motors(chance: random.Random, rotor: Rotor, tables: dict[str, Any]) -> tupl
     for axis, usual_dps in zip(BOTH, (6.0, 2.7 if rotor.kind == "relay-pot" else 6.0), strict=True):
         said_dps = usual_dps if chance.random() < 0.6 else chance.choice((1.5, 3.0, 4.5, 9.0))
         share = 1.0 if chance.random() < 0.4 else chance.uniform(0.3, 1.5)
-        if rotor.kind == "digipot":
+        if rotor.kind in ("digipot", "relay-timed"):
             share = 1.0  # the box cannot notice another speed
         lag_s = chance.choice((0.05, 0.1, 0.15, 0.3)) if rotor.kind == "relay-pot" else 0.1
         tables[axis] |= {"speed_dps": said_dps}

@@ -20,7 +20,7 @@ from rotator.protocols.console import PersonCommand, parse
 from rotator.protocols.operating import Operating
 from rotator.protocols.panel_words import TURNS
 from rotator.protocols.session import Box, Tracking
-from rotator.web.holding import LEASE_S
+from rotator.web.live import LEASE_S
 
 LOOKS_ON = 0.35
 """The share of drills with a browser."""

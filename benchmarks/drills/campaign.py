@@ -9,24 +9,19 @@ import os
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
-from itertools import pairwise
 from multiprocessing import get_context
 
-from benchmarks.drills.accusations import STARTS, TABLE, Violation
+from benchmarks.drills.accusations import TABLE, Violation
 from benchmarks.drills.boxes import KINDS
-from benchmarks.drills.draw import draw
+from benchmarks.drills.draw import BESIDE, draw
 from benchmarks.drills.play import FAILS, play
-from benchmarks.drills.scene import spoils_readings
 from benchmarks.drills.script import Drill
-from benchmarks.drills.shrink import Budget, shrink
+from benchmarks.drills.shrink import Shrinking
 from rotator.config.load import ConfigError
 
 HOUR_S = 3600.0
-STARTS_SHARE = 4.0
-FEW_STARTS = 20
-"""Up to this many relay starts in a drill are right with any readings."""
 SHRINK_S = 3600.0
 """Simulated seconds spent on making one counterexample small."""
 
@@ -53,42 +48,23 @@ class Tally:
     by_judge: dict[str, int] = field(default_factory=lambda: dict.fromkeys((*TABLE, FAILS), 0))
 
 
-def verdict(drill: Drill) -> list[Violation]:
-    """The violations of this drill. Its relay starts are compared with a twin: the same drill with good readings."""
-    outcome = play(drill)
-    if outcome.violations or outcome.relay_starts <= FEW_STARTS:
-        return outcome.violations
-    reads_well = drill.with_events(tuple(event for event in drill.events if not spoils_readings(event)))
-    if reads_well == drill:
-        return []
-    good = play(reads_well)
-    most = STARTS_SHARE * max(good.relay_starts, FEW_STARTS / STARTS_SHARE)
-    # Two persons who press in opposite directions start a motor again and again, with any readings.
-    presses = [event.text(0) for event in drill.events if event.what in ("hold", "jog")]
-    contrary = sum(way != before for before, way in pairwise(presses))
-    if good.violations or outcome.relay_starts <= most + contrary:
-        return []
-    measured = f"{outcome.relay_starts} relay starts, {good.relay_starts} with good readings"
-    return [Violation(drill.seconds, STARTS, "both axes", measured)]
-
-
 def shows(wanted: Violation, drill: Drill) -> Violation | None:
     """The same violation in this drill, or None. An exception must be the same one. A box that cannot be built shows
     nothing."""
     try:
-        alike = [each for each in verdict(drill) if each.judge == wanted.judge]
+        alike = [each for each in play(drill).violations if each.judge == wanted.judge]
     except ConfigError:
         return None
     return next((each for each in alike if wanted.judge != FAILS or each.measured == wanted.measured), None)
 
 
-def seeds(seed: int, hours: float, kind: str = "") -> Iterator[tuple[str, str]]:
+def seeds(seed: int, hours: float, kind: str = "", *, beside_sectors: bool = False) -> Iterator[tuple[str, str]]:
     """The seed and the kind of each drill until they fill `hours`; the kinds take turns."""
     kinds = [kind] if kind else list(KINDS)
     filled_s, number = 0.0, 0
     while filled_s < hours * HOUR_S:
         mine = kinds[number % len(kinds)]
-        each = f"{seed}.{number}"
+        each = f"{seed}.{number}{BESIDE if beside_sectors else ''}"
         filled_s += draw(each, mine).seconds
         yield each, mine
         number += 1
@@ -99,21 +75,21 @@ def try_one(job: tuple[str, str], *, small: bool = True) -> tuple[str, float, fl
     seed, kind = job
     began_s = time.process_time()
     drill = draw(seed, kind)
-    found = verdict(drill)
+    found = play(drill).violations
     cpu_s = time.process_time() - began_s
     kept = [small_one(drill, violation) if small else Found(violation, drill) for violation in found[:1]]
     return kind, drill.seconds / HOUR_S, cpu_s, kept
 
 
 def small_one(drill: Drill, violation: Violation) -> Found:
-    if violation.judge == STARTS:
-        return Found(violation, drill)
-    least, shown = shrink(drill, violation, lambda each: shows(violation, each), Budget(SHRINK_S))
-    return Found(shown, replace(least, seed=drill.seed))
+    shrinking = Shrinking(drill, violation, lambda each: shows(violation, each), SHRINK_S)
+    shrinking.run()
+    least, shown = shrinking.best
+    return Found(shown, least)
 
 
 def run(
-    seed: int, hours: float, kind: str = "", *, first: bool = False, tell: Callable[[Found], None] = lambda _found: None
+    drills: Iterator[tuple[str, str]], *, first: bool = False, tell: Callable[[Found], None] = lambda _found: None
 ) -> tuple[dict[str, Tally], list[Found]]:
     """A whole campaign, on the cores that it may use. `first`: it ends at the first violation, which stays as it is.
 
@@ -122,7 +98,7 @@ def run(
     tallies: dict[str, Tally] = {}
     everything: list[Found] = []
     with ProcessPoolExecutor(len(os.sched_getaffinity(0)), mp_context=get_context("fork")) as pool:
-        for kind_of, hours_of, cpu_s, found in pool.map(partial(try_one, small=not first), seeds(seed, hours, kind)):
+        for kind_of, hours_of, cpu_s, found in pool.map(partial(try_one, small=not first), drills):
             tally = tallies.setdefault(kind_of, Tally())
             tally.drills += 1
             tally.hours += hours_of

@@ -7,22 +7,28 @@ from __future__ import annotations
 
 import random
 
-from benchmarks.drills.boxes import KINDS, ROTORS, draw_mast
+from benchmarks.drills.boxes import KINDS, draw_mast
 from benchmarks.drills.browser import draw_browser
-from benchmarks.drills.mounts import mounted, sensed
+from benchmarks.drills.mounts import braked, mounted, sensed
 from benchmarks.drills.outages import draw_outages, trouble
 from benchmarks.drills.script import Drill
 from benchmarks.drills.stories import stories
+from benchmarks.drills.variants import alone, varied
 
 LEFT_ALONE = 0.5
+BESIDE = "s"
 
 
-def draw(seed: str, kind: str = "") -> Drill:
-    """`kind`: of the rotor; empty: any."""
+def draw(seed: str, kind: str) -> Drill:
+    """A seed that ends in `BESIDE` draws a box beside forbidden sectors."""
     chance = random.Random(seed)
-    rotor = KINDS[kind] if kind else chance.choice(ROTORS)
-    mast = mounted(random.Random(f"{seed} mount"), draw_mast(chance, rotor))
+    mast = draw_mast(chance, KINDS[kind], beside_sectors=seed.endswith(BESIDE))
+    mast = mounted(random.Random(f"{seed} mount"), mast)
     mast = sensed(random.Random(f"{seed} sensors"), mast)
+    mast = varied(random.Random(f"{seed} variants"), mast)
+    mast = braked(random.Random(f"{seed} brakes"), mast)
+    if not seed.endswith(BESIDE):  # sectors are of two axes
+        mast = alone(random.Random(f"{seed} alone"), mast)
     events, seconds = stories(chance, mast, lambda: trouble(chance, mast))
     events += draw_browser(seed, mast, seconds, [event.at_s for event in events] or [0.0])
     outages, seconds = draw_outages(seed, mast, seconds)

@@ -51,6 +51,11 @@ class HeldButton:
 
 
 TURN_DEG, ZENITH_DEG = 360.0, 90.0
+WAITED_FOR_S = 120.0 + 96.0
+"""Within this time after a target has moved the antenna may wait for it at an end of the range, or unwind there ahead
+of it (docs/pointing.md)."""
+STREAM_S = 12.0
+"""Two targets within this time belong to a stream: the antenna may be ahead of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,16 +66,28 @@ class Ranges:
     high_deg: float
     flips: bool
 
-    def turns_deg(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
-        """Every azimuth angle that points there, on each turn, and over the top where that is allowed."""
-        over = self.flips or elevation_deg > ZENITH_DEG
-        bases = (azimuth_deg, azimuth_deg + TURN_DEG / 2) if over else (azimuth_deg,)
-        return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
+    def turns_deg(self, azimuth_deg: float) -> tuple[float, ...]:
+        """Every azimuth angle that points there, on each turn."""
+        turns_deg = (azimuth_deg % TURN_DEG + TURN_DEG * turn for turn in range(-2, 3))
+        return tuple(angle for angle in turns_deg if self.low_deg - 1.0 <= angle <= self.high_deg + 1.0)
 
-    def elevations_deg(self, elevation_deg: float) -> tuple[float, ...]:
-        over = self.flips or elevation_deg > ZENITH_DEG
-        angles = (elevation_deg, 180.0 - elevation_deg) if over else (elevation_deg,)
-        return tuple(min(max(angle, self.low_deg), self.high_deg) for angle in angles)
+    def within(self, angle_deg: float) -> float:
+        return min(max(angle_deg, self.low_deg), self.high_deg)
+
+
+@dataclass(slots=True)
+class Target:
+    """Where one axis was last sent, and when an order last moved that."""
+
+    angle_deg: float = math.nan
+    moved_s: float = -math.inf
+
+    def stands(self, angle_deg: float, now_s: float, least_s: float) -> bool:
+        """Whether this target has not moved for so long, or is the first one."""
+        if angle_deg != self.angle_deg:
+            self.moved_s = -math.inf if math.isnan(self.angle_deg) else now_s
+            self.angle_deg = angle_deg
+        return now_s - self.moved_s >= least_s
 
 
 @dataclass(slots=True)
@@ -78,14 +95,11 @@ class Goal:
     """One sender's order for one axis. `angles_deg` empty: any angle. `way`: the direction of a jog; 0: no jog."""
 
     angles_deg: tuple[float, ...] = ()
-    ends_deg: tuple[float, ...] = ()
-    """The ends of the range at which the antenna may wait for the target."""
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
     turns_s: float = math.inf
     """The time that is left for this order to turn the motor. It counts only while the motor runs."""
-    rate_dps: float = 0.0
 
 
 @dataclass(slots=True)

@@ -1,7 +1,7 @@
 """The orders of a drill that are in force, axis by axis, and what ends them: stops, a lost loop, the program's end.
 
 Knows which state holds the antenna back. Does not know which order of a sender means what: `orders` enters them. The
-stops are in `stops`, the page's button in `held_button`, the angles of an order in `aim_angles`.
+stops are in `stops`, the page's button in `goals`.
 """
 
 from __future__ import annotations
@@ -10,9 +10,20 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from benchmarks.drills.aim_angles import AimAngles
 from benchmarks.drills.front_panel import STILL_AT_MOST_S, FrontPanel
-from benchmarks.drills.goals import AT_END, BUTTON, AxisOrders, Goal, HeldButton, Ranges
+from benchmarks.drills.goals import (
+    AT_END,
+    BUTTON,
+    STREAM_S,
+    TURN_DEG,
+    WAITED_FOR_S,
+    ZENITH_DEG,
+    AxisOrders,
+    Goal,
+    HeldButton,
+    Ranges,
+    Target,
+)
 from benchmarks.drills.held_off import HeldOff, Silenced
 from benchmarks.drills.script import LINKS, PAGE, PANEL, PEOPLE, Event
 from benchmarks.drills.stops import Stops
@@ -31,10 +42,9 @@ ROUND, BEFORE = "round a sector", "before a jog"
 class InForce:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
-    `over_top`: whether the antenna stands over the top; one coordinate alone then moves both axes. `confirms`: a person
-    may confirm the angle of an axis. `counts`: the axes count, and may not be homed yet. `turns`: whether an axis turns
-    or its motor is fed; the box may then refuse a confirmed angle. `at_end`: whether an axis stands near that end of
-    its range; a person's jog is refused there.
+    `confirms`: a person may confirm the angle of an axis. `counts`: the axes count, and may not be homed yet. `turns`:
+    whether an axis turns or its motor is fed; the box may then refuse a confirmed angle. `at_end`: whether an axis
+    stands near that end of its range; a person's jog is refused there.
     """
 
     def __init__(
@@ -45,7 +55,6 @@ class InForce:
         lacking: str = "",
         left_alone: bool = False,
         parks_idle: bool = False,
-        over_top: Callable[[], bool] = lambda: False,
         confirms: bool = True,
         turns: Callable[[str], bool] = lambda _axis: False,
         counts: bool = False,
@@ -79,7 +88,9 @@ class InForce:
         self._listed = False
         """The box may have a list to run."""
         self._tracked = Tracked(self.axes, self._spans, follows=follows, lacking=lacking)
-        self._aims = AimAngles(self.axes, self._spans, self._tracked.recognised, lacking=lacking, over_top=over_top)
+        self._targets = {name: Target() for name in AXES}
+        self._shifted = False
+        """The panel has shifted the target in AUTO: by how much is not followed, until the mode changes."""
         self.heard = 0
         """How many orders there have been."""
         self._knob: Event | None = None
@@ -112,7 +123,7 @@ class InForce:
         self.stops.restart(now_s, pressed=self._panel.pressed)
         self._heard_again(now_s)
         self.ended_at_s = now_s
-        self._aims.shifted = False
+        self._shifted = False
         self._held_off.forget()
         self._modes_known_s = now_s + STILL_AT_MOST_S
         self._tracked.begin_anew()
@@ -155,7 +166,7 @@ class InForce:
                 self._forget(now_s, turned.since_s)
                 self._silenced.forget()
                 self._held_off.forget()
-                self._aims.shifted = False
+                self._shifted = False
                 self._knob_seen_since(turned.since_s)
             if turned.releases:
                 self._release(now_s)
@@ -226,3 +237,26 @@ class InForce:
 
     def _anywhere(self, event: Event, axis: str) -> None:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
+
+    def _send(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
+        """The order leads to one of these angles; none: to any angle, for it is not judged where."""
+        if axis != self.lacking:
+            known = not self._shifted and event.who not in self._tracked.recognised
+            self.axes[axis].goals[event.who] = Goal(angles_deg if known else (), said_s=event.at_s)
+
+    def _aim(self, event: Event, azimuth_deg: float | None, elevation_deg: float | None) -> None:
+        """An order for a place; None: not for this axis. Where it leads is judged where that is plain: within the range
+        and on one side of the mast, and no order has moved the target lately."""
+        azimuth, elevation = self._spans["azimuth"], self._spans["elevation"]
+        flat = not azimuth.flips and (elevation_deg or 0.0) <= ZENITH_DEG and (azimuth_deg or 0.0) <= TURN_DEG
+        both = self.goes_round or azimuth.flips or elevation.high_deg > ZENITH_DEG
+        if azimuth_deg is not None:
+            stands = self._targets["azimuth"].stands(azimuth_deg, event.at_s, WAITED_FOR_S)
+            self._send(event, "azimuth", azimuth.turns_deg(azimuth_deg) if flat and stands else ())
+        elif both:
+            self._anywhere(event, "azimuth")
+        if elevation_deg is not None:
+            stands = self._targets["elevation"].stands(elevation_deg, event.at_s, STREAM_S)
+            self._send(event, "elevation", (elevation.within(elevation_deg),) if flat and stands else ())
+        elif both:
+            self._anywhere(event, "elevation")

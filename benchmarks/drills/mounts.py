@@ -8,6 +8,7 @@ no event of a drill.
 from __future__ import annotations
 
 import random
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -68,6 +69,24 @@ def mounted(chance: random.Random, mast: Mast) -> Mast:
     return replace(mast, tables=tables)
 
 
+def braked(chance: random.Random, mast: Mast) -> Mast:
+    """The same box with a brake on azimuth, or on both axes, if relays drive it."""
+    if not mast.rotor.relays or chance.random() >= SHARE:
+        return mast
+    return replace(mast, tables=with_brakes(chance, mast.rotor.kind, mast.tables))
+
+
+def with_brakes(chance: random.Random, kind: str, tables: Mapping[str, Any]) -> dict[str, Any]:
+    """These tables, with brakes on pins that no header has, so that nothing else is there."""
+    more = dict(tables)
+    for axis, line in zip(BOTH, (28, 29), strict=True):
+        if axis == BOTH[0] or chance.random() < 0.5:
+            keys: dict[str, Any] = {"line": line, "engage_s": chance.choice((2.0, 4.0, 8.0))}
+            keys |= {"release_s": chance.choice((0.3, 0.5, 1.0)), "rock": kind == "relay-pot" and chance.random() < 0.5}
+            more[axis] = {**more.get(axis, {}), "brake": keys}
+    return more
+
+
 def _narrow(chance: random.Random, table: dict[str, Any], at_deg: float, top_deg: float) -> None:
     """Limit the range by a tree or a wall. The start angle `at_deg` stays inside."""
     low_deg = max(0.0, min(round(chance.uniform(0.0, 40.0)), at_deg - CLEAR_DEG))
@@ -93,8 +112,13 @@ def sensed(chance: random.Random, mast: Mast) -> Mast:
     )
     tables = _merged(mast.tables, AS5600)
     mount = tables.get("mount", {})
-    if any(low >= high_deg for low, _ in (sector["azimuth_deg"] for sector in mount.get("forbidden", []))):
-        tables["mount"] = {key: value for key, value in mount.items() if key != "forbidden"}
+    if "forbidden" in mount:
+        within = [
+            each
+            for each in mount["forbidden"]
+            if low_deg < each["azimuth_deg"][1] and each["azimuth_deg"][0] < high_deg
+        ]
+        tables["mount"] = {**mount, "forbidden": within}
     top_deg = high_deg, mast.top_deg[1]
     return replace(mast, rotor=rotor, tables=tables, start_deg=start_deg, top_deg=top_deg, has_pots=False)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from benchmarks.drills.goals import BUTTON, PANEL_S, ZENITH_DEG, Goal
+from benchmarks.drills.goals import BUTTON, PANEL_S, Goal
 from benchmarks.drills.in_force import AXES, PUT_OFF_S, UNCALIBRATED_S, InForce
 from benchmarks.drills.script import PAGE, PANEL, PEOPLE, Event
 
@@ -64,13 +64,13 @@ class Orders(InForce):
             case "resume":
                 self._release(event.at_s)
             case "storm":
-                if not self._held:
+                if not self._held or self._panel.may_turn(event.at_s):  # the switch may have released it already
                     # An antenna that must be homed first cannot park: its present motion goes on.
                     if not self._counts:
                         self._forget(event.at_s)
                     self.stops.begin_storm()
                     for axis in AXES:
-                        self._aims.aim(event, axis, (self._park_deg[axis],))
+                        self._send(event, axis, (self._park_deg[axis],))
             case "home":
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
@@ -118,7 +118,7 @@ class Orders(InForce):
                 until_s = event.at_s + event.number(1) + PANEL_S
                 self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
             case "jog":  # the press may shift the target in force, and later targets
-                self._aims.shifted = True
+                self._shifted = True
                 for axis in AXES:
                     self._anywhere(event, axis)
 
@@ -138,18 +138,11 @@ class Orders(InForce):
                 self._silenced.other(event)
         match event.what:
             case "aim":
-                self._aims.aim_azimuth(event, event.number(1))
-                self._aims.aim_elevation(event, event.number(1))
+                self._aim(event, event.number(0), event.number(1))
             case "aim-azimuth":
-                if self._aims.shows_over_top or self.goes_round:
-                    self._anywhere(event, "elevation")
-                self._aims.aim_azimuth(event, 0.0)
+                self._aim(event, event.number(0), None)
             case "aim-elevation":
-                # Above 90° azimuth stays; without an order it goes to where a servo's first pulse sends it.
-                stays = event.number(0) > ZENITH_DEG and bool(self.axes["azimuth"].goals)
-                if self.goes_round or (self._aims.shows_over_top and not stays):
-                    self._anywhere(event, "azimuth")
-                self._aims.aim_elevation(event, event.number(0))
+                self._aim(event, None, event.number(0))
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
@@ -165,12 +158,10 @@ class Orders(InForce):
                 self._end(event.text(0), event.at_s)
             case "park":
                 for axis in AXES:
-                    self._aims.aim(event, axis, (self._park_deg[axis],))
+                    self._send(event, axis, (self._park_deg[axis],))
             case "list":  # until the list runs, its first point is the target
                 self._listed = True
-                first = replace(event, args=event.args[1:3])
-                self._aims.aim_azimuth(first, first.number(1))
-                self._aims.aim_elevation(first, first.number(1))
+                self._aim(event, event.number(1), event.number(2))
             case "run-list" if self._listed:
                 for axis in AXES:
                     self._anywhere(event, axis)

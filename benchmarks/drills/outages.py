@@ -18,7 +18,7 @@ Happening = tuple[Arg, ...]
 
 
 def trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening], tuple[str, *Happening] | None]:
-    rotor, axis = mast.rotor, chance.choice(BOTH)
+    rotor, axis = mast.rotor, chance.choice(mast.axes)
     choices = ["fault", "fault"]
     if rotor.relays:
         choices += ["weld", "weld", "pace", "push", "sticks"]

@@ -19,6 +19,7 @@ from benchmarks.drills.accusations import Violation
 from benchmarks.drills.befall import WorldEvents
 from benchmarks.drills.box import Box
 from benchmarks.drills.card import WORKS, Card
+from benchmarks.drills.claims import Claims
 from benchmarks.drills.configured import configured
 from benchmarks.drills.hearing import Hearing
 from benchmarks.drills.judges import Judges
@@ -41,7 +42,6 @@ class Outcome:
     """The result of a drill."""
 
     violations: list[Violation] = field(default_factory=list)
-    relay_starts: int = 0
     said: list[str] = field(default_factory=list)
     """The box's log, for a person who examines a violation."""
 
@@ -80,6 +80,7 @@ class _Play:
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
         self._silence = Silence(self._words, self._cases)
+        self._claims = Claims(self._cases)
         self._sectors = Sectors(self._config, self._cases)
         self._judges.goes_round = self._orders.goes_round = bool(self._sectors)
         self._world_events = WorldEvents(
@@ -112,7 +113,6 @@ class _Play:
             text = f"{type(failure).__name__}: {failure} ({Path(where.filename).name}:{where.lineno})"
             outcome.violations.append(Violation(self._now_s, FAILS, "program", text))
         outcome.violations += self._found()
-        outcome.relay_starts = self._world.relay_starts or 0
         outcome.said = [f"{at_s:9.2f} s  {line}" for at_s, line in self._words.lines]
         if self._box.alive:
             self._card.become(WORKS)
@@ -148,7 +148,7 @@ class _Play:
         self._box.cycle(blind=blind)
 
     def _found(self) -> list[Violation]:
-        found = [*self._judges.found, *self._sectors.found, *self._silence.found]
+        found = [*self._judges.found, *self._sectors.found, *self._claims.found, *self._silence.found]
         if self._box.alive and self._box.sentinel.kills:
             found.append(Violation(self._now_s, FAILS, "program", "its sentinel hears nothing while a relay is closed"))
         return found
@@ -164,7 +164,8 @@ class _Play:
         self._judges.look(now_s, self._world.axes)
         self._judges.count(self._world.relay_starts)
         self._sectors.look(now_s, self._world.axes)
-        ordered = self._orders.sure and any(map(self._orders.holds, self._orders.axes))
+        fitted = [axis.value for axis in self._config.fitted]
+        ordered = self._orders.sure and any(map(self._orders.holds, fitted))
         there = self._judges.there(self._world.axes)
         if self._orders.stops.acknowledged_s != self._acknowledged_s:
             self._acknowledged_s = self._orders.stops.acknowledged_s
@@ -172,6 +173,7 @@ class _Play:
         elsewhere = self._judges.elsewhere(self._world.axes) if self._orders.sure else frozenset()
         self._world_events.look(now_s)
         status = self._box.loop.status
+        self._claims.look(now_s, self._world.axes, status)
         self._silence.look(now_s, self._world.axes, status, ordered=ordered, there=there, elsewhere=elsewhere)
 
     def _happen(self, event: Event, late_s: float) -> None:
@@ -212,6 +214,7 @@ class _Play:
         """The program ends, and starts again after the seconds that the event gives. Only the files in its folder
         remain."""
         killed = event.what == "kill"
+        self._judges.ends_at_once = not killed or self._config.rotor.type not in KEEP_THEIR_ORDER
         self._card.end_program(self._now_s, self._box.die if killed else self._box.end, killed=killed)
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)
@@ -219,7 +222,7 @@ class _Play:
         self._hearing.begin_anew(self._box)
         self._card.program_begins()
         self._back_s = self._now_s
-        begins_anew(self._config, self._cases, self._world.axes)
+        begins_anew(self._config, self._cases, self._world.axes, killed=killed)
 
     def _pass(self, seconds: float, *, dead: bool) -> None:
         """The world goes on, and the control thread does not run."""

@@ -7,18 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from benchmarks.drills import told
 from benchmarks.drills.arcs import Arc
 from benchmarks.drills.axis_case import COUNTED_PERIODS, TRY_S, AxisCase
-from benchmarks.drills.goals import ZENITH_DEG, Ranges
+from benchmarks.drills.goals import Ranges
 from benchmarks.drills.judges import Judges
 from benchmarks.drills.orders import Orders
-from benchmarks.drills.script import WORLD, Drill, Event
+from benchmarks.drills.script import Drill, Event
 from benchmarks.drills.world import AxisTruth
 from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_offsets
 from rotator.config.model import Config
 
-KEEP_THEIR_ORDER = ("digipot", "servo")
+KEEP_THEIR_ORDER = ("digipot", "servo", "controller")
 """Kinds of rotor that go to their last order when the program dies (docs/safety.md)."""
 NOISE_SIGMAS = 5.0
 NOISY_DEG, NOISY_TRY_S = 0.2, 2.4
@@ -27,11 +28,20 @@ ROUGH_S, ROUGH_TRY_S = 0.08, 3.0
 """Noise hides a slow motor, so the box needs longer to see that an axis stands (docs/safety.md). Three cases, each with
 the box's time: readings that scatter by `NOISY_DEG`; a motor slower than `SLOW_DPS`; readings that scatter by the angle
 that the motor turns in `ROUGH_S`."""
+TIMED_SHARE, TIMED_S = 1.3, 5.0
+"""An axis that is reckoned by time may press on its stop for as long as its whole travel takes, and longer."""
+LEAVE_TRUE = (
+    *("adc-gone", "silent", "power-cycled", "motor-stalled", "motor-slow", "stop-early", "switch-open", "pwm-refuses"),
+    *("chip-silent", "chip-dips", "chip-unpowered", "driver-hot", "driver-warm", "coil-short", "enable-broken"),
+    *("controller-deaf", "controller-garbled", "controller-slow", "controller-unplugged", "controller-ignores-stop"),
+    *("knob-turned", "encoder-dead"),
+)
+"""Faults that spoil no angle, or that the box can notice when they do; where time alone tells the angle, all do."""
+UNHEARD = ("controller-deaf", "controller-garbled", "controller-unplugged", "controller-ignores-stop")
+BACK_S = 3.0
+"""A controller that hears again is stopped within this time."""
 PRESSES_S = 0.8
 """A press on a counted axis may begin later by up to this time."""
-READINGS = ("every", "burst", "noise", "drift", "stands")
-SENSORS = ("pot-", "adc-", "contact-", "pulses-", "replies-")
-"""The first words of the simulators' names of sensor faults, without the axis."""
 AT_END_DEG = 4.0
 """A person's jog may be refused this near to an end of the range: the status that refuses it is a moment old."""
 DIP_S = 1.2
@@ -45,26 +55,36 @@ def axis_cases(config: Config, truths: list[AxisTruth]) -> tuple[AxisCase, AxisC
 
 def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
     table, sim, source = config.axis(axis), config.sim.of(axis), config.angle(axis).source
+    if accel_dps2 := config.kind.accel_dps2(axis):
+        truth.coasts_s += table.speed_dps / accel_dps2  # its motor slows down under current
     patience_s = TRY_S
-    if source is AngleSource.COUNTED:
+    if config.rotor.type == "relay-pulse":
         slowest_dps = min(table.speed_dps, truth.full_dps)
         patience_s = COUNTED_PERIODS * config.pulses.of(axis).spacing_deg / slowest_dps + PRESSES_S
+    elif config.rotor.type == "relay-timed":  # its own end switches stop its motor; the box counts the time
+        patience_s = TIMED_SHARE * (table.max_deg - table.min_deg) / table.speed_dps + TIMED_S
     elif truth.full_dps < SLOW_DPS:
         patience_s = SLOW_TRY_S + (NOISY_TRY_S - TRY_S if sim.pot_noise_deg > NOISY_DEG else 0.0)
     elif sim.pot_noise_deg > ROUGH_S * truth.full_dps:
         patience_s = ROUGH_TRY_S
     elif sim.pot_noise_deg > NOISY_DEG:
         patience_s = NOISY_TRY_S
-    elif config.rotor.type == "moteus":
+    elif config.rotor.type in ("moteus", "h-bridge", "controller", "stepper"):
         patience_s += truth.coasts_s  # it slows down under current
-    slack_deg = 1.0 + NOISE_SIGMAS * sim.pot_noise_deg + sim.backlash_deg + abs(sim.pot_bow_deg)
+    timed = config.rotor.type == "relay-timed"
+    slack_deg = (0.5 if timed else 1.0) + NOISE_SIGMAS * sim.pot_noise_deg + sim.backlash_deg + abs(sim.pot_bow_deg)
     return AxisCase(
         low_deg=table.min_deg,
         high_deg=table.max_deg,
         tolerance_deg=table.tolerance_deg + config.kind.slack_deg(axis),
         slack_deg=slack_deg,
+        fitted=table.fitted,
         shift_deg=build_offsets(config).deg(axis),
-        feels=source is not AngleSource.MODELLED,
+        feels=source is not AngleSource.MODELLED
+        and (config.rotor.type != "stepper" or config.stepper.of(axis).encoder != 0),
+        blind=timed,
+        trusted=not timed,
+        keeps_place=config.rotor.type == "moteus" and not config.moteus.of(axis).geared,
         counts=source is AngleSource.COUNTED,
         shown_ends=tuple(
             way for way, end in ((1, "high"), (-1, "low")) if f"{axis.value}_{end}" in config.limits.switches
@@ -92,12 +112,11 @@ def build_orders(
     lacking: str,
     left_alone: bool = False,
 ) -> Orders:
-    shift = build_offsets(config)
+    counts = config.angle(config.fitted[0]).source is AngleSource.COUNTED or config.rotor.type == "relay-timed"
     return Orders(
         *_scales(config),
         lacking=lacking,
         left_alone=left_alone,
-        over_top=lambda: truths[1].shaft_deg + shift.elevation_deg + cases[1].slack_deg > ZENITH_DEG,
         turns=lambda name: any(
             truth.name == name and (truth.power or truth.coil or abs(truth.speed_dps) > 0.0) for truth in truths
         ),
@@ -106,8 +125,8 @@ def build_orders(
         at_end=lambda name, way: any(
             truth.name == name and _may_see_end(truth, case, way) for truth, case in zip(truths, cases, strict=True)
         ),
-        counts=config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
-        confirms=config.kind.confirmable or config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
+        counts=counts,
+        confirms=config.kind.confirmable or counts,
     )
 
 
@@ -141,22 +160,19 @@ def lapse(drill: Drill) -> Iterator[Event]:
                 yield event
 
 
-def spoils_readings(event: Event) -> bool:
-    """Whether this event is a trouble of a sensor only, or the end of such a trouble."""
-    if event.who != WORLD or event.what in READINGS:
-        return event.who == WORLD
-    name = str(event.args[0]).removeprefix("azimuth-").removeprefix("elevation-")
-    return event.what in ("fault", "clear") and name.startswith(SENSORS)
-
-
 def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, event: Event) -> None:
     """Note in the cases what this trouble of the world excuses from now on, because no box could notice it."""
     name = str(event.args[0]) if event.args else ""
-    plain = name.removeprefix("azimuth-").removeprefix("elevation-")
+    plain = told.plain(name)
     mine = [cases[1]] if name.startswith("elevation") else [cases[0]] if name.startswith("azimuth") else list(cases)
     if plain in ("board-dips", "chip-dips", "power-cycled"):
         judges.excused_until_s = event.at_s + DIP_S
     for case in mine:
+        known = event.what in ("fault", "clear", "unweld") and plain in LEAVE_TRUE and not case.blind
+        case.befallen = case.befallen or not known
+        if plain in UNHEARD:
+            case.unheard = event.what == "fault"
+            judges.excused_until_s = event.at_s + BACK_S
         if event.what == "stands":
             case.repeats = bool(event.number(1))
         match event.what:
@@ -180,6 +196,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.trusted = False
             case "pace" if case.counts:
                 case.patience_s /= min(1.0, max(event.number(1), 0.3))
+            case "fault" if plain == "jumps":
+                case.trusted, case.misplaced = False, True
             case "fault" if not case.feels and plain not in ("bus-hung",):
                 case.trusted, case.astray = False, True
             case "fault" if plain == "select-broken":
@@ -195,9 +213,13 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.blind = False
 
 
-def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth]) -> None:
+def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth], *, killed: bool) -> None:
     """The program has started again: it takes an axis without feedback to stand at the angle of the file."""
     if config.rotor.type not in KEEP_THEIR_ORDER:
+        return
+    if config.rotor.type == "controller":
+        for case in cases:
+            case.runs_down = killed
         return
     for axis, case, truth in zip(Axis, cases, truths, strict=True):
         start_deg = (config.digipot if config.rotor.type == "digipot" else config.servo).of(axis).start_deg

@@ -81,6 +81,8 @@ class Silence:
         case, must = self._cases[axis], rule(name)
         if must is None or (must.felt and not case.feels) or (must.measured and (case.counts or not case.feels)):
             return
+        if must.lost and case.keeps_place:
+            return
         self._lasting.append(_Lasting(plain(name), axis, must, now_s, self._shown))
 
     def end(self, name: str) -> None:

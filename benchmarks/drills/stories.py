@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import random
 
-from benchmarks.drills.boxes import BOTH, Mast
+from benchmarks.drills.boxes import BOTH, COUNTED, Mast
 from benchmarks.drills.script import CLOCK, PANEL, PEOPLE, PROGRAM, WORLD, Event
 from benchmarks.drills.telling import TURNS_S, WAYS, Telling, Trouble
 
@@ -75,7 +75,7 @@ class Story(Telling):
                 self._add(self._link, "run-list")
             case 5:
                 self._add(self._link, "park")
-            case 6 if self._mast.rotor.kind == "relay-pulse":
+            case 6 if self._mast.rotor.kind in COUNTED:
                 self._add(self._person, "home", BOTH[self._axis])
             case 13:
                 self._add(self._person, "storm")
@@ -178,6 +178,9 @@ class Story(Telling):
             self._turn(self._chance.choice(("auto", "manual", "jog")))
             return
         self._add(*((self._person, "resume") if self._chance.random() < 0.6 else (self._link, "stop")))
+        if self._mast.rotor.kind in COUNTED and self._chance.random() < 0.5:
+            for axis in BOTH:  # a person looks where the antenna stands, and says so
+                self._add(self._person, "confirm", axis, 0.0)
 
 
 def stories(chance: random.Random, mast: Mast, trouble: Trouble) -> tuple[list[Event], float]:
@@ -187,7 +190,7 @@ def stories(chance: random.Random, mast: Mast, trouble: Trouble) -> tuple[list[E
     for axis in BOTH:
         if mast.rotor.relays and chance.random() < (0.6 if axis == mast.commissioning else 0.3):
             events.append(Event(0.0, WORLD, "sticks", (axis, round(chance.uniform(0.02, 0.15), 3))))
-        if mast.rotor.kind == "relay-pulse" and chance.random() < 0.8:
+        if mast.rotor.kind in COUNTED and chance.random() < 0.8:
             events.append(Event(0.1, chance.choice(PEOPLE), "confirm", (axis, 0.0)))
     for _ in range(chance.choice((1, 1, 2, 3))):
         story = Story(chance, mast, at_s, trouble)

@@ -55,6 +55,8 @@ class Rule:
     """A stop, a release or a new start of the program ends it."""
     felt: bool = False
     """A message is due only if the box has readings of the axis."""
+    lost: bool = False
+    """A message is due only if the axis loses its place: an encoder behind the gear shows it again at once."""
     measured: bool = False
     """A message is due only if the angle is measured: a counting contact shows neither a direction nor an angle."""
 
@@ -81,7 +83,10 @@ SEEN: Mapping[str, Rule] = {
     "as5600-gone": AT_ONCE,
     "as5600-noisy": BUS,
     "as5600-gaps": GAPS,
-    "magnet-missing": AT_ONCE,
+    **dict.fromkeys(("as5045-gone", "as5048a-gone", "as5048b-gone", "mt6701-gone", "mt6701-ssi-gone"), AT_ONCE),
+    **dict.fromkeys(("as5045-noisy", "as5048a-noisy", "as5048b-noisy", "mt6701-noisy", "mt6701-ssi-noisy"), BUS),
+    **dict.fromkeys(("as5048b-gaps", "mt6701-gaps"), GAPS),
+    **dict.fromkeys(("magnet-missing", "magnet-weak", "magnet-strong"), AT_ONCE),
     "mpu6050-gone": Rule(Shows.AT_ONCE, shared=True),
     "mpu6050-noisy": BUS,
     "mpu6050-gaps": Rule(Shows.AS_READ, every=60, usual=60, shared=True),
@@ -103,11 +108,27 @@ SEEN: Mapping[str, Rule] = {
     "board-unpowered": Rule(Shows.ORDERED, shared=True),
     "board-gone": Rule(Shows.ORDERED, shared=True),
     "board-noisy": Rule(Shows.ORDERED, within_s=10.0, every=40, usual=20, shared=True),
+    # ready-made controllers
+    "controller-deaf": Rule(Shows.AT_ONCE, shared=True),
+    "controller-garbled": Rule(Shows.AT_ONCE, shared=True),
+    "controller-unplugged": Rule(Shows.AT_ONCE, shared=True),
+    "knob-turned": Rule(Shows.WITHOUT_CURRENT),
+    "jumps": AT_ONCE,
+    # bridges and their encoders
+    "encoder-dead": DRIVEN,
+    "bridge-shorted": Rule(Shows.WELDED, felt=True),
+    # steppers
+    "chip-silent": AT_ONCE,
+    "chip-unpowered": AT_ONCE,
+    "coil-short": DRIVEN,
+    "coil-open": DRIVEN,
+    "driver-hot": AT_ONCE,
+    "held": Rule(Shows.PRESSED, felt=True),
     # moteus controllers
     "silent": AT_ONCE,
     "jammed": DRIVEN,
     "factory-bounds": Rule(Shows.ELSEWHERE, measured=True),
-    "power-cycled": AT_ONCE,
+    "power-cycled": Rule(Shows.AT_ONCE, lost=True),
     "replies-lost": Rule(Shows.DRIVEN, every=12, usual=10),
     "replies-gaps": Rule(Shows.AS_READ, within_s=10.0, every=60, usual=60),
     **dict.fromkeys(FAULT_CODES, Rule(Shows.AT_ONCE, heals=True)),
@@ -120,9 +141,10 @@ SEEN: Mapping[str, Rule] = {
 
 def plain(name: str) -> str:
     """The name of the fault without its axis, its relay and its number."""
-    name = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
-    if name.startswith("relay-welded"):
-        return "relay-welded"
+    name = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-").removeprefix("second-")
+    for switched in ("relay-welded", "bridge-shorted"):
+        if name.startswith(switched):
+            return switched
     return name.removeprefix("low-").removeprefix("high-")
 
 

@@ -11,9 +11,12 @@ import random
 from collections.abc import Callable
 
 from firmware_sim.parts.motor import SimMotor
+from firmware_sim.rotors.controller import SimControllerRotor
 from firmware_sim.rotors.digipot import SimDigipotRotor
+from firmware_sim.rotors.h_bridge import SimBridgeRotor
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from firmware_sim.rotors.relay_pulse import SimRelayPulseRotor
+from firmware_sim.rotors.relay_timed import SimRelayTimedRotor
 from firmware_sim.rotors.rotor import AXES, SimRotor
 
 SUPPLY_V = 3.3
@@ -86,7 +89,9 @@ class Troubles:
     def motor(self, axis: str) -> SimMotor | None:
         """The geared motor of an axis; None: this kind has none."""
         match self._rotor:
-            case SimRelayPotRotor() | SimRelayPulseRotor() | SimDigipotRotor():
+            case SimRelayPotRotor() | SimRelayPulseRotor() | SimRelayTimedRotor() | SimDigipotRotor():
+                return (self._rotor.azimuth, self._rotor.elevation)[AXES.index(axis)].motor
+            case SimBridgeRotor() | SimControllerRotor():
                 return (self._rotor.azimuth, self._rotor.elevation)[AXES.index(axis)].motor
         return None
 

@@ -10,19 +10,26 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from firmware_sim.controllers.brain import SimBrain
 from firmware_sim.moteus.motor import Mode
 from firmware_sim.parts.motor import SimMotor
 from firmware_sim.parts.servo import SimServo
+from firmware_sim.rotors.controller import SimControllerRotor
 from firmware_sim.rotors.digipot import SimBox, SimDigipotRotor
+from firmware_sim.rotors.h_bridge import SimBridgeRotor
 from firmware_sim.rotors.moteus import SimMoteusRotor
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from firmware_sim.rotors.relay_pulse import SimRelayPulseRotor
+from firmware_sim.rotors.relay_timed import SimRelayTimedRotor
 from firmware_sim.rotors.rotor import AXES, SimRotor
 from firmware_sim.rotors.servo import SimServoRotor
+from firmware_sim.rotors.stepper import SimStepperAxis, SimStepperRotor
 
 AT_STOP_DEG = 1e-3
 STANDS_DPS = 0.02
 """A shaft slower than this stands."""
+SPED_SHARE = 0.02
+"""A speed input is above its lowest by more than this share of full speed."""
 
 
 @dataclass(slots=True)
@@ -45,6 +52,12 @@ class AxisTruth:
     pushed: bool = False
     """A hand or the wind turns it."""
     shorted_s: float = 0.0
+    braked_s: float = 0.0
+    """How long its motor was fed against its brake."""
+    jolts: int = 0
+    """How often its brake has fallen on a shaft that turned."""
+    sped: bool = False
+    """Its speed input is above its lowest."""
     told_dps: float = math.inf
     """The speed of the set point that the motor follows; infinite: its set point has no speed."""
     sent_deg: float = math.nan
@@ -102,17 +115,34 @@ class World:
             truth.speed_dps = (truth.shaft_deg - before_deg) / past_s
 
 
+STEPPER_DPS = 12.0
+"""The speed of a stepper, as shipped."""
+
+
 def _eye(rotor: SimRotor, place: int, name: str) -> tuple[AxisTruth, Look]:
     """The truth of one axis of this kind of rotor, and the function that brings it up to date."""
     match rotor:
-        case SimRelayPotRotor() | SimRelayPulseRotor():
+        case SimRelayPotRotor() | SimRelayPulseRotor() | SimRelayTimedRotor():
             motor = (rotor.azimuth, rotor.elevation)[place].motor
+            lowest = rotor.slowest[place] if isinstance(rotor, SimRelayPotRotor) else 1.0
             truth = _geared(name, motor)
             truth.relayed = True
-            return truth, lambda truth: _see_relays(truth, motor, rotor.drives()[place])
+            return truth, lambda truth: _see_relays(truth, motor, rotor.drives()[place], lowest)
+        case SimBridgeRotor():
+            motor = (rotor.azimuth, rotor.elevation)[place].motor
+            truth = _geared(name, motor)
+            return truth, lambda truth: _see_bridge(truth, motor, rotor.drives()[place], rotor.shorted[place])
         case SimDigipotRotor():
             box = (rotor.azimuth, rotor.elevation)[place]
             return _geared(name, box.motor), lambda truth: _see_box(truth, box)
+        case SimControllerRotor():
+            brain = (rotor.azimuth, rotor.elevation)[place]
+            return _geared(name, brain.motor), lambda truth: _see_controlled(truth, brain)
+        case SimStepperRotor():
+            stepper = (rotor.azimuth, rotor.elevation)[place]
+            ends_deg = stepper.motor.spec.low_deg, stepper.motor.spec.high_deg
+            truth = AxisTruth(name, STEPPER_DPS, 0.0, *ends_deg)
+            return truth, lambda truth: _see_stepper(truth, stepper)
         case SimServoRotor():
             servo = (rotor.azimuth, rotor.elevation)[place]
             spec = servo.spec
@@ -138,18 +168,40 @@ def _see_motor(truth: AxisTruth, motor: SimMotor) -> None:
     truth.stop_low_deg, truth.stop_high_deg = motor.stop_low_deg, motor.stop_high_deg
     truth.pushed = motor.pushed != 0.0
     truth.shorted_s = motor.shorted_s
+    if motor.brake:
+        truth.braked_s, truth.jolts = motor.brake.fed_s, motor.brake.jolts
 
 
-def _see_relays(truth: AxisTruth, motor: SimMotor, coil: int) -> None:
+def _see_relays(truth: AxisTruth, motor: SimMotor, coil: int, lowest: float) -> None:
     _see_motor(truth, motor)
     truth.coil = coil if motor.supply else 0
+    truth.sped = motor.throttle > lowest + SPED_SHARE
     truth.welded = motor.welded != 0
+
+
+def _see_bridge(truth: AxisTruth, motor: SimMotor, coil: int, shorted: int) -> None:
+    _see_motor(truth, motor)
+    truth.coil, truth.welded = coil, shorted != 0
 
 
 def _see_box(truth: AxisTruth, box: SimBox) -> None:
     _see_motor(truth, box.motor)
     truth.sent_deg = box.chip.share() * box.spec.full_deg
     truth.coil = truth.power
+
+
+def _see_controlled(truth: AxisTruth, brain: SimBrain) -> None:
+    """What a person does at the controller's knob is no doing of the box."""
+    _see_motor(truth, brain.motor)
+    truth.pushed, truth.sent_deg = brain.knob != 0, math.nan if brain.target_deg is None else brain.target_deg
+    truth.power = truth.coil = 0 if truth.pushed else truth.power
+
+
+def _see_stepper(truth: AxisTruth, stepper: SimStepperAxis) -> None:
+    chip, spec = stepper.chip, stepper.motor.spec
+    truth.shaft_deg = stepper.motor.angle_deg
+    truth.told_dps = abs(chip.v) / (abs(spec.gear) * spec.steps_per_turn * 256 / 360.0)
+    truth.power = truth.coil = (chip.v > 0) - (chip.v < 0) if chip.feeds else 0
 
 
 def _see_servo(truth: AxisTruth, servo: SimServo) -> None:

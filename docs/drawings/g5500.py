@@ -68,9 +68,7 @@ def draw(config: Config) -> Sheet:
     )
     sheet.rail("5 V", RED, "relays.VCC", "pi.2")
     sheet.ground("relays.GND")
-    for relay, (pin, (gpio, _, colour)) in reversed(list(enumerate(driven.items(), 1))):
-        sheet.wire(colour, f"din.{labels[pin]}", f"relays.K{relay} NO")
-        sheet.wire(colour, f"pi.{GPIO_PINS[gpio]}", f"relays.IN{relay}")
+    sheet.relays({f"din.{labels[pin]}": (gpio, colour) for pin, (gpio, _, colour) in driven.items()})
     sheet.wire(BLACK, "last.b", "relays.COM, all four")
     sheet.wire(BLACK, f"din.{labels[COMMON]}", "last.a", "earth.top")
     sheet.note(

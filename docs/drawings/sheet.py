@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import count
 
 from docs.drawings import parts
+from docs.drawings.header import GPIO_PINS
 from docs.drawings.parts import Part, Pin
 from docs.drawings.shapes import LARGE, PLAIN, Place, Words
 
@@ -50,6 +52,13 @@ class Sheet:
         for name in pins:
             self.pin(name)
         self.nets.append(Net(colour, pins))
+
+    def relays(self, driven: Mapping[str, tuple[int, str]]) -> None:
+        """Each relay of the part `relays`, in turn: from its GPIO, and to the pin that its contact switches. GPIO and
+        colour by that pin."""
+        for relay, (switched, (gpio, colour)) in reversed(list(enumerate(driven.items(), 1))):
+            self.wire(colour, switched, f"relays.K{relay} NO")
+            self.wire(colour, f"pi.{GPIO_PINS[gpio]}", f"relays.IN{relay}")
 
     def ground(self, *pins: str) -> None:
         for name in pins:

@@ -1,7 +1,6 @@
 """Simulated SPI: the kernel's controller in the shape of the module `spidev`, and a chip on four GPIO lines.
 
-Knows clocks and selects, in modes 0 and 3 (CPOL equals CPHA). Knows no chip. Not simulated: modes 1 and 2, and the time
-of a transfer.
+Knows clocks and selects, in all four modes. Knows no chip. Not simulated: the time of a transfer.
 """
 
 from __future__ import annotations
@@ -9,7 +8,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Mapping, Sequence
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from firmware_sim.buses.gpio import SimGpio
 
@@ -23,6 +22,14 @@ class SpiChip(Protocol):
 
     def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
         """Take the levels of its inputs from now on; `cs` low selects the chip."""
+
+
+@runtime_checkable
+class TakesFrames(Protocol):
+    """A chip that does the edges of a whole frame at once: that takes a tenth of the time."""
+
+    def frame(self, values: Sequence[int]) -> list[int]:
+        """As the edges of `pins` would: select, the bytes, release. Returns what it sent meanwhile."""
 
 
 def wire_spi(gpio: SimGpio, chip: SpiChip, *, select: int, sck: int, si: int, so: int) -> None:
@@ -48,24 +55,30 @@ class SimSpidev:
 
 
 class SimSpiDevice:
-    """As `spidev.SpiDev`, in modes 0 and 3, which the simulated chips use."""
+    """As `spidev.SpiDev`. `mode` is CPOL, 2, and CPHA, 1."""
 
     def __init__(self, chips: Mapping[tuple[int, int], SpiChip]) -> None:
         self.mode = 0
         self.max_speed_hz = 500_000
         self._chips = chips
         self._chip: SpiChip | None = None
+        self._frames: TakesFrames | None = None
 
     def open(self, bus: int, device: int) -> None:
         if (bus, device) not in self._chips:
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
-        self._chip = self._chips[bus, device]
+        chip = self._chip = self._chips[bus, device]
+        self._frames = chip if isinstance(chip, TakesFrames) else None
 
     def xfer2(self, values: Sequence[int]) -> list[int]:
-        """Select the chip, exchange each byte, release the chip. The output is sampled where the clock rises."""
+        """Select the chip, exchange each byte, release the chip. Modes 0 and 3 sample the output where the clock
+        rises, 1 and 2 where it falls."""
         if self._chip is None:
             raise OSError(errno.EBADF, os.strerror(errno.EBADF))
-        chip, rest, si = self._chip, self.mode == 3, False
+        chip, rest, si = self._chip, self.mode >= 2, False
+        sampled = self.mode in (1, 2)
+        if self._frames is not None:
+            return self._frames.frame(values)
         answer = []
         chip.pins(cs=True, sck=rest, si=si)
         chip.pins(cs=False, sck=rest, si=si)
@@ -73,9 +86,9 @@ class SimSpiDevice:
             octet = 0
             for bit in range(7, -1, -1):
                 si = bool(value >> bit & 1)
-                chip.pins(cs=False, sck=False, si=si)
+                chip.pins(cs=False, sck=sampled, si=si)
                 octet = octet << 1 | bool(chip.so)
-                chip.pins(cs=False, sck=True, si=si)
+                chip.pins(cs=False, sck=not sampled, si=si)
             answer.append(octet)
         chip.pins(cs=False, sck=rest, si=si)
         chip.pins(cs=True, sck=rest, si=si)

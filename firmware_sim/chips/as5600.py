@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from enum import Enum
+
+from firmware_sim.chips.magnet import DETECTED_MT, OverMagnet
 
 ZMCO, ZPOS, MPOS, MANG, CONF = 0x00, 0x01, 0x03, 0x05, 0x07
 STATUS, RAW_ANGLE, ANGLE, AGC, MAGNITUDE = 0x0B, 0x0C, 0x0E, 0x1A, 0x1B
@@ -17,36 +18,19 @@ BURN = 0xFF
 HELD = (RAW_ANGLE, ANGLE, MAGNITUDE)
 """At these registers the pointer does not move on: each read returns the same two bytes, newly measured."""
 
-WEAKEST_MT, STRONGEST_MT, DETECTED_MT = 30.0, 90.0, 8.0
+WEAKEST_MT, STRONGEST_MT = 30.0, 90.0
 GAIN_MAX_3V3 = 128
 """Largest gain with a supply of 3.3 V; with 5 V it is 255."""
 STEPS = 4096
 
 
-class MagnetFault(Enum):
-    """Faults of the magnet."""
-
-    NONE = ""
-    MISSING = "magnet-missing"
-    WEAK = "magnet-weak"
-    STRONG = "magnet-strong"
-
-
-FIELD_MT = {MagnetFault.NONE: 60.0, MagnetFault.MISSING: 1.0, MagnetFault.WEAK: 15.0, MagnetFault.STRONG: 120.0}
-
-
-class As5600:
-    """The chip. `turn` gives the magnet's angle in turns; 2.25 reads like 0.25."""
-
+class As5600(OverMagnet):
     def __init__(
         self, turn: Callable[[], float], *, noise_deg_rms: float = 0.015, noise: random.Random | None = None
     ) -> None:
-        self.fault = MagnetFault.NONE
+        super().__init__(turn, noise_deg_rms=noise_deg_rms, noise=noise)
         self.burns: list[int] = []
         """The values written to BURN. A real chip keeps burnt settings for ever."""
-        self._turn = turn
-        self._noise_turn_rms = noise_deg_rms / 360.0
-        self._noise = noise or random.Random(5600)
         self._settings = bytearray(CONF + 2)
         self._pointer = 0
         self._held = False
@@ -79,7 +63,7 @@ class As5600:
         if register == STATUS:
             return self._status()
         if register == AGC:
-            return self._gain()
+            return self.gain(WEAKEST_MT, STRONGEST_MT, GAIN_MAX_3V3)
         for word in HELD:
             if register in (word, word + 1):
                 return self._word(word)[register - word]
@@ -88,17 +72,12 @@ class As5600:
     def _word(self, register: int) -> bytes:
         match register:
             case 0x0C:
-                value = self._raw()
+                value = self.steps(STEPS)
             case 0x0E:
-                value = self._narrowed(self._raw())
+                value = self._narrowed(self.steps(STEPS))
             case _:
-                value = round(min(FIELD_MT[self.fault] * 30.0, STEPS - 1))
+                value = round(min(self.field_mt * 30.0, STEPS - 1))
         return value.to_bytes(2, "big")
-
-    def _raw(self) -> int:
-        if self.fault is MagnetFault.MISSING:
-            return self._noise.randrange(STEPS)  # without a magnet the angle is random
-        return round((self._turn() + self._noise.gauss(0.0, self._noise_turn_rms)) * STEPS) % STEPS
 
     def _narrowed(self, raw: int) -> int:
         """ANGLE: the range from ZPOS to MPOS becomes 0 to 4095; outside it, the nearer end."""
@@ -110,10 +89,6 @@ class As5600:
         return min(beyond * STEPS // width, STEPS - 1)
 
     def _status(self) -> int:
-        field_mt = FIELD_MT[self.fault]
+        field_mt = self.field_mt
         detected, weak, strong = field_mt >= DETECTED_MT, field_mt < WEAKEST_MT, field_mt > STRONGEST_MT
         return detected << 5 | weak << 4 | strong << 3
-
-    def _gain(self) -> int:
-        lacking = (STRONGEST_MT - FIELD_MT[self.fault]) / (STRONGEST_MT - WEAKEST_MT)
-        return round(GAIN_MAX_3V3 * max(0.0, min(1.0, lacking)))

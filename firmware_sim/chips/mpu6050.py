@@ -11,6 +11,8 @@ import random
 import struct
 from collections.abc import Callable
 
+from firmware_sim.chips.registers import Registers
+
 CONFIG, ACCEL_CONFIG, ACCEL_OUT, POWER_1, WHO_AM_I = 0x1A, 0x1C, 0x3B, 0x6B, 0x75
 RESET_BIT, SLEEP_BIT = 0x80, 0x40
 IDENTITY = 0x68
@@ -22,7 +24,7 @@ WAKE_UP_S = 0.03
 Acceleration = tuple[float, float, float]
 
 
-class Mpu6050:
+class Mpu6050(Registers):
     """The chip. `feels_g` gives the true acceleration along its x, y and z: at rest, 1 g upwards."""
 
     def __init__(
@@ -42,7 +44,6 @@ class Mpu6050:
         self._feels_g = feels_g
         self._noise_g = noise_g_per_root_hz
         self._noise = noise or random.Random(6050)
-        self._pointer = 0
         self.brown_out()
 
     def brown_out(self) -> None:
@@ -52,13 +53,6 @@ class Mpu6050:
         self._runs_from_s = math.inf
 
     # --- I2C
-
-    def write(self, data: bytes) -> None:
-        if not data:
-            return
-        self._pointer = data[0]
-        for register, value in enumerate(data[1:], self._pointer):
-            self._set(register, value)
 
     def read(self, count: int) -> bytes:
         self._sample()

@@ -1,7 +1,7 @@
 """One axis of a rotor: relay contacts, motor, gear play, end stops.
 
-Knows mechanics: the delay of a contact, how a motor gathers speed and coasts, the backlash, the end stops, and the
-faults of contacts and motor. Knows no volts, no GPIO line and no protocol. Motion between two contact changes is a
+Knows mechanics: the delay of a contact, how a motor gathers speed and coasts, the backlash, the end stops, a brake, and
+the faults of contacts and motor. Knows no volts, no GPIO line and no protocol. Motion between two contact changes is a
 closed formula, so the result does not depend on how often `advance` is called.
 """
 
@@ -11,6 +11,11 @@ import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+
+from firmware_sim.parts.brake import SimBrake
+
+JOLT_SHARE = 0.05
+"""A shaft slower than this share of its motor's speed stands, for a wedge that falls."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +57,8 @@ class SimMotor:
         """Fault: the two wires of the motor are swapped."""
         self.pace = 1.0
         """Fault: its speed as a share of the normal speed, as with cold grease or a weak supply."""
+        self.throttle = 1.0
+        """The share of its speed that a bridge feeds it for; relays feed it for all."""
         self.sticks_s = 0.0
         """Fault: a contact opens so much later than it should, as one that is burnt or held by an arc."""
         self.pushed = 0.0
@@ -60,6 +67,8 @@ class SimMotor:
         """The end stops; a fault may move them."""
         self.shorted_s = 0.0
         """Total time for which both directions had current at once, which burns a motor. Must stay 0."""
+        self.brake: SimBrake | None = None
+        """Its brake; None: it has none."""
         self.on_turn: list[Stretch] = []
         """Called for each turn of the shaft, oldest first."""
         self._now_s = now_s
@@ -91,10 +100,16 @@ class SimMotor:
 
     def advance(self, now_s: float) -> None:
         """Bring the motor up to `now_s`."""
-        while self._moving_contacts and self._moving_contacts[0][0] <= now_s:
-            moment_s, contacts = self._moving_contacts.popleft()
-            self._run(moment_s)
-            self._contacts = contacts
+        while True:
+            contacts_s = self._moving_contacts[0][0] if self._moving_contacts else math.inf
+            brake_s = self.brake.next_s() if self.brake else math.inf
+            if min(contacts_s, brake_s) > now_s:
+                break
+            self._run(min(contacts_s, brake_s))
+            if contacts_s <= brake_s:
+                _, self._contacts = self._moving_contacts.popleft()
+            elif self.brake:
+                self.brake.move(turning=abs(self.speed_dps) > JOLT_SHARE * self.spec.speed_dps)
         self._run(now_s)
 
     def _run(self, until_s: float) -> None:
@@ -109,7 +124,10 @@ class SimMotor:
             if plus and minus:
                 self.shorted_s += left_s
             self.drive = (plus - minus) * (-1 if self.reversed else 1)
-        wanted_dps = (self.drive * self.pace if self.drive else self.pushed) * self.spec.speed_dps
+        wanted_dps = (self.drive * self.pace * self.throttle if self.drive else self.pushed) * self.spec.speed_dps
+        if self.brake and self.brake.holds(self.drive):
+            self.brake.fed_s += left_s if self.drive and not self.brake.drawn else 0.0
+            self.speed_dps = wanted_dps = 0.0
         if self.stalled:
             self.speed_dps = wanted_dps = 0.0
         if wanted_dps == 0.0 and self.speed_dps == 0.0:

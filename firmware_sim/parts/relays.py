@@ -1,4 +1,4 @@
-"""A relay board: a relay for each direction of two motors, and a master relay in the motors' supply.
+"""A relay board: a relay for each direction of two motors, for their brakes, and a master in the motors' supply.
 
 Knows which line switches which coil, at which level, and how often a motor relay was closed. Knows neither the delay
 nor the welding of a contact: `SimMotor` simulates both.
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.parts.brake import SimBrake
 from firmware_sim.parts.motor import SimMotor
 
 
@@ -25,6 +26,9 @@ class RelayPins:
     elevation_minus: int
     master: int | None = None
     """Line of the relay in the supply of both motors; None: the motors always have supply."""
+    azimuth_brake: int | None = None
+    elevation_brake: int | None = None
+    """Line of the relay that feeds the solenoid of this brake; None: the axis has none."""
 
 
 @dataclass(slots=True)
@@ -32,6 +36,7 @@ class _MotorRelays:
     motor: SimMotor
     plus_pin: int
     minus_pin: int
+    brake_pin: int | None
     plus: bool = False
     minus: bool = False
     """True: the coil has current."""
@@ -61,9 +66,11 @@ class SimRelays:
         self._master_pin = pins.master
         azimuth, elevation = motors
         self._motors = (
-            _MotorRelays(azimuth, pins.azimuth_plus, pins.azimuth_minus),
-            _MotorRelays(elevation, pins.elevation_plus, pins.elevation_minus),
+            _MotorRelays(azimuth, pins.azimuth_plus, pins.azimuth_minus, pins.azimuth_brake),
+            _MotorRelays(elevation, pins.elevation_plus, pins.elevation_minus, pins.elevation_brake),
         )
+        for relays in self._motors:
+            relays.motor.brake = SimBrake() if relays.brake_pin is not None else None
         gpio.on_edges.append(self._lines_changed)
         if pins.master is not None:
             self._lines_changed(now_s, {pins.master: gpio.level(pins.master)})
@@ -81,6 +88,9 @@ class SimRelays:
                     relays.plus, relays.minus = self._fed(relays.plus_pin), self._fed(relays.minus_pin)
                     relays.motor.coils(relays.plus, relays.minus, now_s)
                     self.starts += sum(self._fed(pin) for pin in changed)
+                if relays.motor.brake and relays.brake_pin is not None and relays.brake_pin in changes:
+                    relays.motor.advance(now_s)
+                    relays.motor.brake.coil(now_s, fed=self._fed(relays.brake_pin))
             if self._master_pin is not None and self._master_pin in changes:
                 for relays in self._motors:
                     relays.motor.advance(now_s)

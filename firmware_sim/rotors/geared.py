@@ -45,6 +45,13 @@ class GearedRotor(SimRotor):
             self._advance()
             return self.azimuth.motor.shorted_s + self.elevation.motor.shorted_s
 
+    @property
+    def brake_harm(self) -> tuple[float, int]:
+        with self._lock:
+            self._advance()
+            brakes = [axis.motor.brake for axis in (self.azimuth, self.elevation) if axis.motor.brake]
+            return sum(brake.fed_s for brake in brakes), sum(brake.jolts for brake in brakes)
+
     def rests(self) -> tuple[float, float]:
         with self._lock:
             self._advance()
@@ -84,7 +91,8 @@ class RelayedRotor(GearedRotor):
         self._relays = SimRelays(pins, self.gpio, motors, self._clock(), self._lock, active_low=active_low)
 
     def _motor_faults(self) -> dict[str, SimFault]:
-        """Also swapped wires, a welded contact, and a hand that turns the antenna while its motor has no current.
+        """Also swapped wires, a welded contact, a hand that turns the antenna while its motor has no current, and what
+        can be wrong with a brake.
 
         The two `relay-welded` faults of one axis exclude each other.
         """
@@ -99,4 +107,9 @@ class RelayedRotor(GearedRotor):
                 f"{name}-relay-welded-{plus}": self._fault_of(motor, "welded", 1, 0),
                 f"{name}-relay-welded-{minus}": self._fault_of(motor, "welded", -1, 0),
             }
+            if motor.brake:
+                table |= {
+                    f"{name}-brake-stuck": self._fault_of(motor.brake, "stuck", True, False),
+                    f"{name}-wedge-sticks": self._fault_of(motor.brake, "sticks", True, False),
+                }
         return table

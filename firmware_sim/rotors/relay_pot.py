@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
+from firmware_sim.buses.pwm import PINS, SimPwm
+from firmware_sim.chips.mcp4725 import Mcp4725
 from firmware_sim.faults import SimFault
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
@@ -24,6 +26,29 @@ POT_ERROR_DEG = 90.0
 """Error of one reading in fault `pot-jumps`; largest error of each reading in fault `pot-loose`."""
 
 
+SPEED_BOW = 0.1
+"""The speed is not quite a straight line of the voltage: at mid-range it is so much higher, as a share of the range."""
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedInput:
+    """An input whose voltage sets the speed: its range, as shares of the output's, and the speed at its lower end, as a
+    share of full speed. It is wired to a pin of the PWM, through a filter, or to an MCP4725 at that address.
+    """
+
+    lowest: float
+    full: float
+    slowest: float
+    pwm_pin: int | None = None
+    address: int | None = None
+    bus: int = 1
+
+    def pace(self, share: float) -> float:
+        """The speed as a share of full speed, with that much at the output."""
+        way = min(max((share - self.lowest) / (self.full - self.lowest), 0.0), 1.0)
+        return self.slowest + (1.0 - self.slowest) * (way + 4.0 * SPEED_BOW * way * (1.0 - way))
+
+
 @dataclass(frozen=True, slots=True)
 class RelayPotAxisSpec:
     """One axis: its parts, and the GPIO numbers of its relays."""
@@ -33,6 +58,8 @@ class RelayPotAxisSpec:
     start_deg: float
     plus_pin: int
     minus_pin: int
+    brake_pin: int | None = None
+    speed: SpeedInput | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +99,49 @@ class SimRelayPotRotor(RelayedRotor):
             "elevation": lambda: self._wiper_v(self.elevation),
         }
         azimuth, elevation = spec.azimuth, spec.elevation
-        pins = RelayPins(azimuth.plus_pin, azimuth.minus_pin, elevation.plus_pin, elevation.minus_pin, spec.master_pin)
+        pins = RelayPins(
+            azimuth.plus_pin,
+            azimuth.minus_pin,
+            elevation.plus_pin,
+            elevation.minus_pin,
+            spec.master_pin,
+            azimuth.brake_pin,
+            elevation.brake_pin,
+        )
         self._wire_relays(pins, active_low=spec.relays_active_low)
         self.faults = self._fault_table()
+        self.pwm = SimPwm()
+        self.pwm.changed = lambda _number: self._speeds_changed()
+        self._speeds: list[tuple[SimMotor, Callable[[], float]]] = []
+        """Each motor with a speed input, and what its voltage lets it turn at, as a share of full speed."""
+        for name, axis in (("azimuth", self.azimuth), ("elevation", self.elevation)):
+            if axis.spec.speed is not None:
+                self._wire_speed(name, axis, axis.spec.speed)
+        self._speeds_changed()
+
+    def _wire_speed(self, name: str, axis: RelayPotAxis, speed: SpeedInput) -> None:
+        if speed.pwm_pin is not None:
+            channel = self.pwm.channels[PINS[speed.pwm_pin]]
+            self._speeds.append((axis.motor, lambda: speed.pace(channel.share)))
+            self.faults["pwm-refuses"] = self._fault_of(self.pwm, "refuses", True, False)
+        if speed.address is not None:
+            dac = Mcp4725()
+            dac.changed = self._speeds_changed
+            self._speeds.append((axis.motor, lambda: speed.pace(dac.share)))
+            self.wire_i2c(f"{name}-dac", (speed.bus, speed.address), dac)
+            self.faults[f"{name}-dac-dips"] = self._single_fault(dac.power_on)
+
+    @property
+    def slowest(self) -> tuple[float, float]:
+        """What each motor turns at with its speed input at the lowest, as a share of full speed; 1: it has no input."""
+        azimuth, elevation = (axis.spec.speed for axis in (self.azimuth, self.elevation))
+        return azimuth.slowest if azimuth else 1.0, elevation.slowest if elevation else 1.0
+
+    def _speeds_changed(self) -> None:
+        with self._lock:
+            self._advance()
+            for motor, pace in self._speeds:
+                motor.throttle = pace()
 
     def _wiper_v(self, axis: RelayPotAxis) -> float:
         with self._lock:
@@ -85,7 +152,7 @@ class SimRelayPotRotor(RelayedRotor):
         """Of one axis, `pot-open`, `-shorted`, `-reversed` and `-stuck` exclude each other; so do `wind-turns` and
         `hand-turns`.
         """
-        table = {"bus-hung": SimFault(self.bus.hang, self.bus.release)}
+        table = {"bus-hung": SimFault(self._hang_buses, self._release_buses)}
         for name, axis in (("azimuth", self.azimuth), ("elevation", self.elevation)):
             stop_deg, early_deg = axis.spec.motor.stop_high_deg, axis.spec.pot.high_deg - EARLY_DEG
             table |= {

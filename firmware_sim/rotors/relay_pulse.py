@@ -34,6 +34,7 @@ class RelayPulseAxisSpec:
     start_deg: float = 0.0
     seed: int = 0
     """Seed of the contact's bouncing."""
+    brake_pin: int | None = None
 
 
 class RelayPulseAxis:
@@ -70,7 +71,15 @@ class SimRelayPulseRotor(RelayedRotor):
         self._axes = (self.azimuth, self.elevation)
         for axis in self._axes:
             self.gpio.drive_input(axis.spec.contact_pin, axis.contact.closed is self._closed_level)
-        pins = RelayPins(azimuth.plus_pin, azimuth.minus_pin, elevation.plus_pin, elevation.minus_pin, master_pin)
+        pins = RelayPins(
+            azimuth.plus_pin,
+            azimuth.minus_pin,
+            elevation.plus_pin,
+            elevation.minus_pin,
+            master_pin,
+            azimuth.brake_pin,
+            elevation.brake_pin,
+        )
         self._wire_relays(pins, active_low=relays_active_low)
         self.gpio.on_look.append(self._catch_up)
         self.faults = self._fault_table()

@@ -42,7 +42,7 @@ class SimServoRotor(SimRotor):
         clock: Callable[[], float],
         sleep: Callable[[float], None] | None = None,
         *,
-        address: int = 0x40,
+        place: tuple[int, int] = (1, 0x40),
         enable_pin: int | None = None,
         osc_hz: float = 25e6,
     ) -> None:
@@ -50,7 +50,7 @@ class SimServoRotor(SimRotor):
         self._enable_pin = enable_pin
         self._enabled = enable_pin is None
         self.board = Pca9685(clock, osc_hz=osc_hz)
-        self.wire_i2c("board", address, self.board)
+        self.wire_i2c("board", place, self.board)
         self.azimuth, self.elevation = (
             SimServo(spec.servo, spec.start_deg, clock, lambda spec=spec: self._pulse_us(spec.channel))  # type: ignore[misc]
             for spec in (azimuth, elevation)
@@ -94,7 +94,7 @@ class SimServoRotor(SimRotor):
     def _fault_table(self) -> dict[str, SimFault]:
         table = {
             "board-unpowered": self._fault_of(self.board, "supply", False, True),
-            "bus-hung": SimFault(self.bus.hang, self.bus.release),
+            "bus-hung": SimFault(self._hang_buses, self._release_buses),
             "board-dips": self._single_fault(self._dip),
         }
         for name, servo in (("azimuth", self.azimuth), ("elevation", self.elevation)):

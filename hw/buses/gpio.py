@@ -192,6 +192,48 @@ class GpioContact(_HeldLines):
         return changes
 
 
+class GpioPair(_HeldLines):
+    """The two channels of an encoder, or its only one, through `api`: the kernel records their edges in one order.
+
+    `offsets`: A, B. `pull`: the Pi's own resistors hold the lines high, for open collectors. Raises HardwareError.
+    """
+
+    def __init__(self, api: Any, path: str, offsets: tuple[int, ...], *, consumer: str, pull: bool = True) -> None:
+        line = real_gpiod().line
+        self._offsets = offsets
+        self._names = tuple(f"GPIO{offset}" for offset in offsets)
+        self._active = line.Value.ACTIVE
+        self._seqno = 0
+        setting = real_gpiod().LineSettings(
+            direction=line.Direction.INPUT,
+            edge_detection=line.Edge.BOTH,
+            bias=line.Bias.PULL_UP if pull else line.Bias.DISABLED,
+        )
+        named = dict(zip(("channel A", "channel B"), offsets, strict=False))
+        super().__init__(_taken(api, path, named, {offsets: setting}, consumer=consumer, event_buffer_size=EVENTS_KEPT))
+
+    def levels(self) -> tuple[int, ...]:
+        """A and B now: 1 is high. Raises HardwareError."""
+        values = self._ask(lambda: self._request.get_values(list(self._offsets)), "read", self._names)
+        return tuple(int(value is self._active) for value in values)
+
+    def changes(self) -> list[tuple[int, int, int]]:
+        """Since the last call: the channel (0: A, 1: B), its level, and how many edges before were not recorded.
+
+        Never waits. Raises HardwareError.
+        """
+        return self._ask(self._read_changes, "read", self._names)
+
+    def _read_changes(self) -> list[tuple[int, int, int]]:
+        changes = []
+        while self._request.wait_edge_events(0):
+            for event in self._request.read_edge_events():
+                lost, self._seqno = event.global_seqno - self._seqno - 1, event.global_seqno
+                level = int(event.event_type.name == "RISING_EDGE")
+                changes.append((self._offsets.index(event.line_offset), level, lost))
+        return changes
+
+
 def _taken(
     api: Any,
     path: str,

@@ -1,4 +1,4 @@
-"""Frames to and from chips on SPI, mode 0, most significant bit first: by the kernel's driver, or on GPIO lines.
+"""Frames to and from chips on SPI, most significant bit first: by the kernel's driver, or in mode 0 on GPIO lines.
 
 Knows clock, data and select lines. Does not know what a frame means. The only importer of spidev.
 """
@@ -74,12 +74,15 @@ class LineSpi:
 class KernelSpi:
     """SPI on the Pi's controller, through `api`: the spidev package, or an object of its shape.
 
-    `selects` gives each chip the number of its select: /dev/spidevBUS.SELECT. Raises HardwareError.
+    `selects` gives each chip the number of its select: /dev/spidevBUS.SELECT. `mode`: of the clock, 0 to 3.
+    Raises HardwareError.
     """
 
-    def __init__(self, api: Any, bus: int, selects: Mapping[str, int]) -> None:
+    def __init__(
+        self, api: Any, bus: int, selects: Mapping[str, int], *, mode: int = 0, speed_hz: int = SPEED_HZ
+    ) -> None:
         self._lock = threading.Lock()
-        self._devices = {chip: _opened(api, bus, select) for chip, select in selects.items()}
+        self._devices = {chip: _opened(api, bus, select, mode, speed_hz) for chip, select in selects.items()}
 
     def send(self, chip: str, frame: bytes) -> None:
         self.exchange(chip, frame)
@@ -107,7 +110,7 @@ def real_spidev() -> Any:
     return spidev
 
 
-def _opened(api: Any, bus: int, select: int) -> Any:
+def _opened(api: Any, bus: int, select: int, mode: int, speed_hz: int) -> Any:
     path = f"/dev/spidev{bus}.{select}"
     device = api.SpiDev()
     try:
@@ -120,6 +123,6 @@ def _opened(api: Any, bus: int, select: int) -> Any:
         raise HardwareError(f"SPI: no permission for {path}: add the user to the group spi") from fault
     except OSError as fault:
         raise HardwareError(f"SPI: {path}: {fault.strerror or fault}") from fault
-    device.mode = 0
-    device.max_speed_hz = SPEED_HZ
+    device.mode = mode
+    device.max_speed_hz = speed_hz
     return device

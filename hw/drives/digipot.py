@@ -38,8 +38,8 @@ class DigipotDrive:
 
     def __init__(
         self,
-        azimuth: tuple[Mcp41010, BoxSpec],
-        elevation: tuple[Mcp41010, BoxSpec],
+        azimuth: tuple[Mcp41010, BoxSpec] | None,
+        elevation: tuple[Mcp41010, BoxSpec] | None,
         clock: Callable[[], float],
         *,
         enable: OutputLines | None = None,
@@ -52,10 +52,8 @@ class DigipotDrive:
         self._unseen: set[Axis] = set()
         """The axes whose sensor has not reported a place yet."""
         self._refresh_s = 0.0
-        self._boxes = {
-            Axis.AZIMUTH: ControlBox("azimuth box", *azimuth, clock()),
-            Axis.ELEVATION: ControlBox("elevation box", *elevation, clock()),
-        }
+        boxes = {Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation}
+        self._boxes = {axis: ControlBox(f"{axis.value} box", *box, clock()) for axis, box in boxes.items() if box}
         self._changed = threading.Condition(threading.RLock())
 
     # --- hw.ports.PositionedDrive

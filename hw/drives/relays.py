@@ -1,15 +1,17 @@
-"""Four motor relays, and the rules that no caller can bypass: the only code that closes a relay.
+"""Four motor relays and their brakes, and the rules that no caller can bypass: the only code that closes a relay.
 
-Knows that opposite relays are never on together, that a reversal waits for its dead time, and that every command
-expires. Does not know angles or targets, nor how long the motors' supply stays on. Safe to call from any thread.
+Knows that opposite relays are never on together, that a reversal waits for its dead time, that every command expires,
+and that a motor and its brake never work against each other. Does not know angles or targets, nor how long the motors'
+supply stays on. Safe to call from any thread.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 
+from hw.drives.brake import BRAKES, NEVER_READY_S, Brake, BrakeTimes
 from hw.drives.leases import LONGEST_LEASE_S, wait_until
 from hw.drives.motor_supply import MASTER, MotorSupply
 from hw.drives.switched_motor import SwitchedMotor
@@ -28,7 +30,8 @@ class RelayBank:
 
     `clock` gives seconds; `until_s` of a command is on the same clock. `dead_time_s`: the pause before a reversal.
     `one_at_a_time`: never feed both motors together, for a small transformer; the second one gets OFF and the caller
-    asks again. `watch` learns of each lease before a relay closes.
+    asks again. `watch` learns of each lease before a relay closes. `axes`: those whose relays are wired; `brakes`:
+    those that have one.
     """
 
     def __init__(
@@ -40,6 +43,8 @@ class RelayBank:
         master: bool = False,
         one_at_a_time: bool = False,
         watch: LeaseWatch | None = None,
+        axes: Collection[Axis] = tuple(Axis),
+        brakes: Mapping[Axis, BrakeTimes] | None = None,
     ) -> None:
         self._lines = lines
         self._watch = watch
@@ -48,14 +53,16 @@ class RelayBank:
         self._dead_time_s = dead_time_s
         self._one_at_a_time = one_at_a_time
         self._supply = MotorSupply(lines, wired=master)
-        self._motors = {axis: SwitchedMotor() for axis in Axis}
+        self._motors = {axis: SwitchedMotor() for axis in axes}
+        self._brakes = {axis: Brake(times) for axis, times in (brakes or {}).items()}
         self._lock = threading.Condition()
         self._due_s: float | None = None
 
     def drive(self, axis: Axis, direction: Direction, until_s: float) -> Direction:
         """Run `axis` in this direction until `until_s` at the latest; OFF stops it now. Returns the direction now on.
 
-        During the dead time of a reversal it returns OFF, and the caller asks again. Raises HardwareError.
+        During the dead time of a reversal, and until its brake is off, it returns OFF, and the caller asks again.
+        Raises HardwareError.
         """
         with self._lock:
             now_s = self._clock()
@@ -98,6 +105,27 @@ class RelayBank:
             finally:
                 self._plan(now_s)
 
+    def seen_turning(self, axis: Axis) -> None:
+        """The antenna turns now: its brake waits until it stands. An axis without a brake ignores it."""
+        with self._lock:
+            if axis in self._brakes:
+                self._brakes[axis].keep_off(self._clock())
+
+    def leave(self, within_s: float) -> None:
+        """Switch everything off; the brakes engage within this time, for the program ends. Raises HardwareError."""
+        with self._lock:
+            self.off()
+            now_s = self._clock()
+            for brake in self._brakes.values():
+                brake.due_s = min(brake.due_s, now_s + within_s)
+            self._plan(now_s)
+
+    @property
+    def released(self) -> bool:
+        """Whether a brake is off."""
+        with self._lock:
+            return any(brake.released for brake in self._brakes.values())
+
     @property
     def supplied(self) -> bool:
         """Whether the master is on; True if no master is wired."""
@@ -122,25 +150,25 @@ class RelayBank:
             self._supply.barred = False
 
     def off(self) -> None:
-        """Switch everything off now. From any thread. Raises HardwareError."""
+        """Switch all motors off now; each brake engages when it is due. From any thread. Raises HardwareError."""
         with self._lock:
             now_s = self._clock()
-            everything = dict.fromkeys(RELAYS.values(), False)
+            everything = {line: False for (axis, _), line in RELAYS.items() if axis in self._motors}
             if self._supply.wired:
                 everything[MASTER] = False
             self._lines.set(everything)
             self._supply.note_off()
-            for motor in self._motors.values():
-                motor.note_stop(now_s)
+            for axis in self._motors:
+                self._note_stop(axis, now_s)
             self._plan(now_s)
 
     def due_s(self) -> float | None:
-        """When `enforce` is due; None: no relay is on."""
+        """When `enforce` is due; None: no relay is on, and no brake is off."""
         with self._lock:
             return self._due_s
 
     def enforce(self, now_s: float) -> None:
-        """Open every relay whose command has expired. The guard's only task.
+        """Open every relay whose command has expired, and engage every brake that is due. The guard's only task.
 
         If one line cannot be switched, the bank still switches the others, and opens the master. Raises the first
         HardwareError after that.
@@ -151,6 +179,14 @@ class RelayBank:
                 if motor.runs and motor.until_s <= now_s:
                     try:
                         self._open(axis, now_s)
+                    except HardwareError as failure:
+                        failures.append(failure)
+            for axis, brake in self._brakes.items():
+                if brake.released and brake.due_s <= now_s and not self._motors[axis].runs:
+                    try:
+                        self._lines.set({BRAKES[axis]: False})
+                        brake.released_s = None
+                        self._tell_brakes()
                     except HardwareError as failure:
                         failures.append(failure)
             if failures or (self._supply.lingered(now_s) and self._idle()):
@@ -180,7 +216,7 @@ class RelayBank:
         if motor.on not in (Direction.OFF, direction):
             self._open(axis, now_s)
         # The watch learns of the lease before the relay closes: a closed relay is always watched.
-        if not motor.runs and self._may_start(motor, direction, now_s):
+        if not motor.runs and self._may_start(motor, direction, now_s) and self._unbraked(axis, now_s):
             self._renew()
             self._close(axis, direction, now_s)
         elif motor.on is direction:
@@ -191,6 +227,25 @@ class RelayBank:
         if self._one_at_a_time and another_runs:
             return False
         return motor.may_turn(direction, now_s, self._dead_time_s)
+
+    def _unbraked(self, axis: Axis, now_s: float) -> bool:
+        """Whether the motor may start against no brake. If it may not yet, the brake is on its way off."""
+        brake = self._brakes.get(axis)
+        if brake is None:
+            return True
+        if not brake.released:
+            # A line that fails may have switched: the guard switches it off, and the motor does not start.
+            brake.released_s = NEVER_READY_S
+            self._tell_brakes()
+            self._lines.set({BRAKES[axis]: True})
+            brake.released_s = now_s
+        brake.keep_off(now_s)
+        return brake.ready(now_s)
+
+    def _tell_brakes(self) -> None:
+        """Tell the watch which brakes are off: if the program dies, these engage later than the relays open."""
+        if self._watch:
+            self._watch.unbraked([BRAKES[axis] for axis, brake in self._brakes.items() if brake.released])
 
     def _close(self, axis: Axis, direction: Direction, now_s: float) -> None:
         levels = {RELAYS[axis, Direction(-direction)]: False, RELAYS[axis, direction]: True}
@@ -210,8 +265,13 @@ class RelayBank:
         if not motor.runs:
             return
         self._lines.set({RELAYS[axis, Direction.PLUS]: False, RELAYS[axis, Direction.MINUS]: False})
-        motor.note_stop(now_s)
+        self._note_stop(axis, now_s)
         self._supply.linger(now_s)
+
+    def _note_stop(self, axis: Axis, now_s: float) -> None:
+        if self._motors[axis].runs and axis in self._brakes:
+            self._brakes[axis].note_stop(now_s)
+        self._motors[axis].note_stop(now_s)
 
     def _renew(self) -> None:
         if self._watch:
@@ -230,9 +290,11 @@ class RelayBank:
             # Tell the watch of each end. If it hears nothing during a lease, it takes the program for hung.
             self._watch.rest()
             self._renewed = False
-        moments_s = leases_s
+        moments_s = [*leases_s]
         if self._idle() and self._supply.until_s is not None:
-            moments_s = [*leases_s, self._supply.until_s]
+            moments_s.append(self._supply.until_s)
+        engage = (axis for axis, brake in self._brakes.items() if brake.released and not self._motors[axis].runs)
+        moments_s += [self._brakes[axis].due_s for axis in engage]
         due_s = min(moments_s, default=None)
         news = due_s is None or self._due_s is None or due_s < self._due_s
         self._due_s = due_s

@@ -39,23 +39,21 @@ class ServoDrive:
     def __init__(
         self,
         chip: Pca9685,
-        azimuth: ServoSpec,
-        elevation: ServoSpec,
+        azimuth: ServoSpec | None,
+        elevation: ServoSpec | None,
         clock: Callable[[], float],
         *,
         enable: OutputLines | None = None,
         idle_off_s: float | None = None,
     ) -> None:
-        if azimuth.channel == elevation.channel:
+        if azimuth and elevation and azimuth.channel == elevation.channel:
             raise HardwareError(f"azimuth and elevation are both on output {azimuth.channel}: give each its own")
         self._chip = chip
         self._clock = clock
         self._enable = enable
         self._idle_off_s = idle_off_s
-        self._axes = {
-            Axis.AZIMUTH: ServoAxis("azimuth servo", azimuth),
-            Axis.ELEVATION: ServoAxis("elevation servo", elevation),
-        }
+        specs = {Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation}
+        self._axes = {axis: ServoAxis(f"{axis.value} servo", spec) for axis, spec in specs.items() if spec}
         self._changed = threading.Condition()
         self._wire = threading.Lock()
         """Held while the bus is in use. `off` and `hold` do not take it, so that a stop never waits for the bus."""

@@ -150,7 +150,7 @@ class MoteusBus:
             news.clear()
             if await wire.serve(_patiently):
                 heard_s, self._lively = loop.time(), True
-                if not self._met.is_set() and all(self._drive.answer(axis) for axis in Axis):
+                if not self._met.is_set() and all(self._drive.answer(axis) for axis in self._drive.specs):
                     self._met.set()
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(news.wait(), self._drive.next_order_in_s())

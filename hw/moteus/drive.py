@@ -39,16 +39,19 @@ class MoteusDrive:
     angle_source = AngleSource.MEASURED
 
     def __init__(
-        self, azimuth: MoteusSpec, elevation: MoteusSpec, clock: Callable[[], float], *, look_only: bool = False
+        self,
+        azimuth: MoteusSpec | None,
+        elevation: MoteusSpec | None,
+        clock: Callable[[], float],
+        *,
+        look_only: bool = False,
     ) -> None:
-        if azimuth.can_id == elevation.can_id:
+        if azimuth and elevation and azimuth.can_id == elevation.can_id:
             raise HardwareError(f"azimuth and elevation both have CAN id {azimuth.can_id}: give one another with tview")
         self._clock = clock
         self._lock = threading.RLock()
-        self._axes = {
-            Axis.AZIMUTH: MoteusAxis(azimuth, look_only=look_only),
-            Axis.ELEVATION: MoteusAxis(elevation, look_only=look_only),
-        }
+        specs = {Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation}
+        self._axes = {axis: MoteusAxis(spec, look_only=look_only) for axis, spec in specs.items() if spec}
         self._offline: str | None = None
         self.on_news: Callable[[], None] = lambda: None
         """The drive calls this when an order must be sent at once. The bus sets it."""

@@ -48,6 +48,8 @@ class MoteusSpec:
     min_deg: float = 0.0
     max_deg: float = 360.0
     """The axis's range. It shows in which turn the antenna stands."""
+    endless: bool = False
+    """It has no range, and every turn is as good as another."""
 
     def revolutions(self, angle_deg: float) -> float:
         """The controller's position at that angle."""
@@ -59,6 +61,8 @@ class MoteusSpec:
 
     def turns_deg(self, angle_deg: float, beyond_deg: float) -> list[float]:
         """Each angle in the range, or up to `beyond_deg` beyond it, at which the antenna points as at `angle_deg`."""
+        if self.endless:
+            return [angle_deg]
         least = math.ceil((self.min_deg - beyond_deg - angle_deg) / 360)
         most = math.floor((self.max_deg + beyond_deg - angle_deg) / 360)
         return [angle_deg + 360 * turn for turn in range(least, most + 1)]

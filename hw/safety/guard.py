@@ -68,6 +68,17 @@ class Guard:
             if self._thread.is_alive():
                 self._thread.join(timeout=2 * PATIENCE_S)
 
+    def linger(self, awaited: Callable[[], bool], longest_s: float) -> None:
+        """Wait while the thread works and this is still true, but no longer than that. Without a thread: not at all.
+
+        Raises HardwareError if it is still true then, or the thread has died.
+        """
+        give_up_s = self._clock() + longest_s
+        while self._thread.is_alive() and awaited() and self._clock() < give_up_s:
+            self._stopping.wait(RETRY_S)
+        if self._started and awaited():
+            raise HardwareError("the guard has not engaged a brake: the sentinel does it")
+
     def check(self) -> None:
         """Raises HardwareError if the thread has ended without `stop`: then no command would expire."""
         if self._started and not self._stopping.is_set() and not self._thread.is_alive():

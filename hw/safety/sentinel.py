@@ -10,14 +10,16 @@ import os
 import select
 import subprocess
 import sys
+from collections.abc import Collection
 from contextlib import suppress
 from fcntl import F_SETPIPE_SZ, fcntl
 from pathlib import Path
 from secrets import token_hex
 
+from hw.drives.brake import BRAKES
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines
-from hw.safety.sentinel_process import READY
+from hw.safety.sentinel_process import READY, UNBRAKED
 
 START_S = 20.0
 """Seconds allowed for the start of the process."""
@@ -82,6 +84,14 @@ class Sentinel:
         # A failure does no harm here: the next renewal fails too, and raises.
         with suppress(OSError):
             self._send(b"-")
+
+    def unbraked(self, lines: Collection[str]) -> None:
+        """These brakes are off: they engage later than the relays open. Raises HardwareError as `renew`."""
+        said = sum(1 << place for place, line in enumerate(BRAKES.values()) if line in lines)
+        try:
+            self._send(UNBRAKED[said : said + 1])
+        except OSError as fault:
+            raise HardwareError(f"the sentinel (process {self.pid}) is gone or stuck: no brake may be off") from fault
 
     def dismiss(self) -> None:
         """All relays are off and stay off: the sentinel ends without switching the lines."""

@@ -1,9 +1,9 @@
 """The sentinel: a small process that opens the relays when the program that closed them has died or hangs.
 
 Knows the relay lines, the program's process and one pipe. On the pipe `+` means that a relay is on, `-` that all relays
-are off, and `.` that the program ends properly. All other bytes are a question, which goes back as it came: so the
-program knows that its sentinel is awake. The end of the pipe without `.` means that the program has died. Knows no
-sensor, no order and no configuration.
+are off, and `.` that the program ends properly. `@`, `A`, `B` and `C` say which brakes are off: these engage later than
+the relays open. All other bytes are a question, which goes back as it came: so the program knows that its sentinel is
+awake. The end of the pipe without `.` means that the program has died. Knows no sensor, no order and no configuration.
 
 It uses no bus, disk or network that could make it hang, and it is loaded and locked in memory before the first relay
 may close. It is needed because a Raspberry Pi's kernel keeps the outputs of a dead program as they were.
@@ -21,8 +21,10 @@ import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 
 from hw.buses.gpio import real_gpiod
+from hw.drives.brake import BRAKES
 from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
@@ -30,6 +32,8 @@ from hw.urgent import hurry
 
 SILENCE_S = LONGEST_LEASE_S + 0.2
 """Seconds of silence after which the program hangs: it writes `+` or `-` again before its longest lease ends."""
+UNBRAKED = b"@ABC"
+"""By number: 1 for the first axis, 2 for the second."""
 READY = b"ready\n"
 PATIENCE_S = 5.0
 """Seconds that the sentinel waits until the kernel has freed the lines of a dead process."""
@@ -37,27 +41,36 @@ PATIENCE_S = 5.0
 _MCL_CURRENT_AND_FUTURE = 3
 
 
-def watch(commands: int, answers: int, program: int, off: Callable[[], None]) -> None:
+def watch(commands: int, answers: int, program: int, off: Callable[[int], None]) -> None:
     """Read the pipe `commands` until the program (a pidfd) ends, dies, or falls silent with a relay on. Questions go
     back on the pipe `answers`.
 
-    Calls `off` at the end, unless the program has ended properly.
+    Calls `off` at the end with the number of the brakes that are off, unless the program has ended properly.
     """
+    heard = _Heard()
     try:
-        ended_properly = _read_until_end(commands, answers, program)
+        ended_properly = _read_until_end(commands, answers, program, heard)
     except OSError:
         # Without the pipe the sentinel cannot know whether a relay is on. Off is safe.
         ended_properly = False
     if not ended_properly:
-        off()
+        off(heard.unbraked)
 
 
-def _read_until_end(commands: int, answers: int, program: int) -> bool:
+@dataclass(slots=True)
+class _Heard:
+    """What the program has said last."""
+
+    silent_at_s: float | None = None
+    """When it has been silent for too long; None: it may be silent."""
+    unbraked: int = 0
+
+
+def _read_until_end(commands: int, answers: int, program: int, heard: _Heard) -> bool:
     """Whether the program ended properly."""
-    last_on_s: float | None = None
     os.set_blocking(answers, False)
     while True:
-        left_s = None if last_on_s is None else max(0.0, last_on_s + SILENCE_S - time.monotonic())
+        left_s = None if heard.silent_at_s is None else max(0.0, heard.silent_at_s - time.monotonic())
         ready, _, _ = select.select([commands], [], [], left_s)
         if not ready:
             # The program is stopped, frozen or starved. Kill it: only then its lines are free, and it cannot switch
@@ -68,13 +81,15 @@ def _read_until_end(commands: int, answers: int, program: int) -> bool:
         received = os.read(commands, 4096)
         if not received:
             return False
-        if question := received.translate(None, b"+-."):
+        if question := received.translate(None, b"+-." + UNBRAKED):
             with suppress(BlockingIOError):  # the program reads no answer: nothing here waits for it
                 os.write(answers, question)
-        if said := received.translate(None, question):
+        if brakes := received.translate(None, question + b"+-."):
+            heard.unbraked = UNBRAKED.index(brakes[-1])
+        if said := received.translate(None, question + UNBRAKED):
             if said.endswith(b"."):
                 return True
-            last_on_s = time.monotonic() if said.endswith(b"+") else None
+            heard.silent_at_s = time.monotonic() + SILENCE_S if said.endswith(b"+") else None
 
 
 def main(arguments: list[str]) -> int:
@@ -100,9 +115,17 @@ def _watch(lines: RelayLines) -> int:
         sys.stdin.fileno(),
         sys.stdout.fileno(),
         program,
-        lambda: switch_off(api, lines, time.monotonic, time.sleep, PATIENCE_S),
+        lambda unbraked: switch_off(
+            api, lines, time.monotonic, time.sleep, PATIENCE_S, unbraked=_brakes(lines, unbraked)
+        ),
     )
     return 0
+
+
+def _brakes(lines: RelayLines, number: int) -> list[str]:
+    """The lines of the brakes that this number names."""
+    named = (line for place, line in enumerate(BRAKES.values()) if number >> place & 1)
+    return [line for line in named if line in lines.offsets]
 
 
 if __name__ == "__main__":

@@ -67,6 +67,10 @@ class PulseCounter:
     """
 
     source = AngleSource.COUNTED
+    travelled_deg = 0.0
+    error_deg: float | None = None
+    worn = False
+    """A count grows no worse with the way."""
 
     def __init__(
         self,

@@ -99,7 +99,7 @@ def _wire(rotor: SimRotor, name: str) -> Callable[[], float]:
 
 def _wire_ads1115(table: Adc, rotor: SimRotor, clock: Callable[[], float]) -> SimAds1115:
     chip = SimAds1115(clock, vdd_v=max(3.3, table.supply_v))
-    rotor.wire_i2c("adc", table.address, chip)
+    rotor.wire_i2c("adc", (table.bus, table.address), chip)
     rotor.faults["adc-frozen"] = SimFault(lambda: setattr(chip, "frozen", True), lambda: setattr(chip, "frozen", False))
     return chip
 

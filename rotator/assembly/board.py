@@ -37,7 +37,7 @@ class Board(Buses):
             opened,
             gpio=lambda: gpiod,
             paths=world.gpio.paths() if world else None,
-            open_bus=(lambda _number: SmbusI2C(world.bus, "simulated bus")) if world else open_bus,
+            open_bus=(lambda number: SmbusI2C(world.i2c(number), "simulated bus")) if world else open_bus,
             spidev=(lambda: world.spidev) if world else real_spidev,
             clock=clock,
             sleep=sleep,

@@ -104,6 +104,7 @@ class Buses:
         for key, pin in use.selects.items():
             if pin not in KERNEL_SELECTS:
                 raise HardwareError(f"SPI: {use.table}.{key} = {pin} is no select of the kernel's SPI: take 8 or 7")
-        spi = KernelSpi(self._spidev(), 0, {key: KERNEL_SELECTS[pin] for key, pin in use.selects.items()})
+        selects = {key: KERNEL_SELECTS[pin] for key, pin in use.selects.items()}
+        spi = KernelSpi(self._spidev(), 0, selects, mode=use.mode, speed_hz=use.speed_hz)
         self.opened.callback(spi.close)
         return spi

@@ -35,21 +35,27 @@ class CalibrationTraits:
     """Added to the rotor's own scale this gives the angle that the box reports."""
     homes: bool
     """The axis counts from its end stop."""
+    timed: bool
+    """Nothing comes back: the times from stop to stop are what it is reckoned by."""
     settle_s: float
     first_press: str
     """What the operator must expect of the first press; empty: nothing unusual."""
     reversal: str
     """The repair for an antenna that turns the wrong way; empty: exchange the two relays."""
+    endless: bool = False
+    """The axis has no ends, and so no limits."""
 
 
 def calibration_traits(config: Config, axis: Axis) -> CalibrationTraits:
     return CalibrationTraits(
         reach_deg=_reach_deg(config, axis),
         shift_deg=build_offsets(config).deg(axis),
-        homes=config.counts(axis),
+        homes=config.end_stop(axis) is not None,
+        timed=config.speeds_dps(axis) is not None,
         settle_s=0.0 if config.rotor.switched else SETTLE_S,
         first_press=config.kind.first_move(axis),
         reversal=config.kind.reversal(axis),
+        endless=config.endless(axis),
     )
 
 

@@ -14,9 +14,12 @@ from typing import Any
 
 from hw.buses.gpio import GpioInputs, find_chip, holders, real_gpiod
 from hw.buses.i2c import SmbusI2C, open_bus
+from hw.buses.pwm import KernelFiles, header_chip
 from hw.buses.spi import real_spidev
 from hw.chips.bno055 import Bno055
+from hw.chips.ls7366r import Ls7366r
 from hw.chips.pca9685 import MODE1, PRE_SCALE, SLEEP
+from hw.controllers.drive import ControllerDrive
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import LIMITS, explain
 from hw.moteus.orders import Mode
@@ -24,6 +27,7 @@ from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, HardwareError
 from rotator.assembly.adc import Converter, open_adc
 from rotator.assembly.buses import Buses
+from rotator.assembly.kinds.controller import controller_drive
 from rotator.assembly.kinds.moteus import moteus_bus, moteus_drive
 from rotator.assembly.sensors import compass_chip, sensor_chip
 from rotator.assembly.simulation import simulated_rotor
@@ -76,6 +80,8 @@ class Heard:
 PATIENCE_S = 1.5
 """Controllers answer within milliseconds; an adapter needs longer after it has been plugged in."""
 LOOK_S = 0.02
+READY_MADE_S = 4.0
+"""An Arduino starts anew when its port is opened."""
 BOOTED_S = 2.0
 """The time since power-on of a simulated station: a compass takes nearly a second to boot."""
 
@@ -92,6 +98,27 @@ def ask_controllers(config: Config) -> dict[Axis, Heard]:
         return {axis: heard(drive, axis) for axis in Axis}
     finally:
         bus.close()
+
+
+def ask_ready_made(config: Config) -> dict[Axis, float | str]:
+    """What each axis's ready-made controller tells, in degrees; or why there is nothing. Orders nothing."""
+    drive = controller_drive(config, time.monotonic)
+    drive.start()
+    try:
+        until_s = time.monotonic() + READY_MADE_S
+        while time.monotonic() < until_s and not drive.answered:
+            drive.enforce(time.monotonic())
+            time.sleep(LOOK_S)
+        return {axis: _told(drive, axis) for axis in config.fitted}
+    finally:
+        drive.finish()
+
+
+def _told(drive: ControllerDrive, axis: Axis) -> float | str:
+    try:
+        return drive.angle_deg(axis)
+    except HardwareError as fault:
+        return str(fault)
 
 
 def ask_in_step(config: Config, transport: Any, clock: Callable[[], float]) -> dict[Axis, Heard]:
@@ -135,6 +162,10 @@ class Chips:
     """The state of both controllers. Raises HardwareError if the package is missing."""
     spidev: Callable[[], Any] = real_spidev
     """The spidev package, or an object of its shape. Raises HardwareError where it is missing."""
+    pwm: Callable[[], str] = lambda: header_chip(KernelFiles())
+    """The folder of the header's PWM. Raises HardwareError where it is missing."""
+    controllers: Callable[[Config], Mapping[Axis, float | str]] = ask_ready_made
+    """What each axis's ready-made controller tells, in degrees; or why there is nothing."""
 
     def header(self, config: Config) -> str:
         """The path of the chip with the relays. Raises HardwareError."""
@@ -165,23 +196,34 @@ class Chips:
     def converter(self, config: Config) -> Iterator[Converter]:
         """The converter of the pots, with its widest range. Raises HardwareError where its bus cannot be opened."""
         with ExitStack() as opened:
-            buses = Buses(
-                opened,
-                gpio=self.gpio,
-                paths=self.paths,
-                open_bus=self.open_bus,
-                spidev=self.spidev,
-                clock=self.clock,
-                sleep=self.sleep,
-                chip=config.relays.chip,
-            )
-            yield open_adc(config.adc, buses, widest=True)
+            yield open_adc(config.adc, self._buses(opened, config), widest=True)
 
-    def sensor(self, bus: SmbusI2C, config: Config, axis: Axis) -> AngleSensor:
-        """The sensor chip of this axis, which has one."""
-        sensor = sensor_chip(config.axis(axis).sensor, lambda _number: bus, self.clock, self.sleep)
-        assert sensor is not None
-        return sensor
+    @contextmanager
+    def sensor(self, config: Config, axis: Axis) -> Iterator[AngleSensor]:
+        """The sensor chip of this axis, which has one. Raises HardwareError where its bus cannot be opened."""
+        with ExitStack() as opened:
+            sensor = sensor_chip(config, axis, self._buses(opened, config))
+            assert sensor is not None
+            yield sensor
+
+    def counter_placed(self, config: Config, axis: Axis) -> bool:
+        """Whether the axis's LS7366R has counted on from a place. Reads, and writes nothing. Raises HardwareError."""
+        with ExitStack() as opened:
+            (use,) = config.kind.spi_uses()
+            bus = self._buses(opened, config).spi(use)
+            return Ls7366r(bus, f"{axis.value}.select").look()[1].is_place
+
+    def _buses(self, opened: ExitStack, config: Config) -> Buses:
+        return Buses(
+            opened,
+            gpio=self.gpio,
+            paths=self.paths,
+            open_bus=self.open_bus,
+            spidev=self.spidev,
+            clock=self.clock,
+            sleep=self.sleep,
+            chip=config.relays.chip,
+        )
 
     def compass(self, bus: SmbusI2C, config: Config) -> Bno055:
         return compass_chip(config.compass, bus, self.clock, self.sleep)
@@ -213,9 +255,10 @@ def simulated_chips(config: Config) -> Chips:
     return Chips(
         lambda: gpio,
         gpio.paths(),
-        lambda _number: SmbusI2C(world().bus, "simulated bus"),
+        lambda number: SmbusI2C(world().i2c(number), "simulated bus"),
         time.monotonic,
         time.sleep,
         lambda config: ask_in_step(config, world().transport(), time.monotonic),
         lambda: world().spidev,
+        lambda: header_chip(world().pwm),
     )

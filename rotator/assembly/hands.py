@@ -8,7 +8,6 @@ from __future__ import annotations
 from firmware_sim.panel import SimPanel
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.exchange.orders import Mode
-from rotator.panel.inputs import POSITIONS
 from rotator.protocols.console_session import Hands
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 
@@ -46,6 +45,8 @@ def _unfitted(panel: SimPanel, hand: Hand) -> str:
 
 
 def _move(panel: SimPanel, hand: Hand) -> None:
+    from rotator.panel.inputs import POSITIONS  # noqa: PLC0415 - many a box has no panel
+
     match hand:
         case TurnMode(Mode() as mode):
             panel.turn_mode(POSITIONS.index(mode))

@@ -40,14 +40,14 @@ def build_tries(config: Config, state: State) -> KeptTries | None:
     """
     if not config.keeps_files:
         return None
-    settings = {axis: _scale(config, axis) for axis in Axis}
+    settings = {axis: _scale(config, axis) for axis in config.fitted}
     return KeptTries(state, settings)
 
 
 def build_modelled_file(config: Config) -> CountsFile | None:
     """The file of the angles that only a model knows, kept with these settings. None: none outlives the program."""
-    modelled = [axis for axis in Axis if config.angle(axis).source is AngleSource.MODELLED]
-    if not modelled or not config.keeps_files:
+    modelled = [axis for axis in config.fitted if config.angle(axis).source is AngleSource.MODELLED]
+    if not modelled or not config.keeps_files or config.rotor.switched:
         return None
     tables = config.servo if config.rotor.type == "servo" else config.digipot
     settings = {

@@ -4,6 +4,8 @@ Knows which class carries the bytes of which kind of port or socket, and what th
 `sessions` knows the protocols. Carries no bytes itself.
 """
 
+# ruff: noqa: PLC0415 - a box loads the links that it has
+
 from __future__ import annotations
 
 import itertools
@@ -13,7 +15,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from hw.ports import Axis
 from rotator.assembly.sessions import BINARY, HTTP, session_maker
@@ -21,25 +23,22 @@ from rotator.config.links import FOLLOW, Link, address
 from rotator.control.sky.mount import Mount
 from rotator.exchange.sources import Source
 from rotator.links.allowed import Allowed
-from rotator.links.asking import AskingLink
-from rotator.links.file import FileLink
 from rotator.links.pty import PtyLink
-from rotator.links.serial import SerialLink
 from rotator.links.tcp import TcpLink
-from rotator.links.udp import Report, UdpLink
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
-from rotator.orbits.celestial import Sky
 from rotator.protocols.move_report import MoveReport
-from rotator.protocols.n1mm import N1mmReport
 from rotator.protocols.one_axis import OneAxis
-from rotator.protocols.pstrotator import ANSWERS_ABOVE
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import Box, Inquiry, Session
 from rotator.runtime.client import Client, Rights
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
+
+if TYPE_CHECKING:
+    from rotator.links.udp import Report
+    from rotator.orbits.celestial import Sky
 
 log = logging.getLogger(__name__)
 
@@ -101,12 +100,15 @@ class _Connections:
         self._ranges = LogLimit(time.monotonic, most=1)
         self._notices = LogLimit(time.monotonic)
         self._remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
+        self._make = (
+            None if link.protocol == FOLLOW else session_maker(link, self._remark, sky=shared.sky, notice=self._notice)
+        )
+        """None: on this link the box asks."""
 
     def session(self) -> Session:
+        assert self._make is not None
         source, client = self._client()
-        session = session_maker(
-            self._link, _seen_by(self._link, client), self._remark, sky=self._shared.sky, notice=self._notice
-        )
+        session = self._make(_seen_by(self._link, client))
         if self._link.report_moves:
             session = MoveReport(session, client)
         text = self._link.protocol not in BINARY
@@ -141,11 +143,18 @@ def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
     if link.pty is not None:
         return PtyLink(wire, Path(link.pty), connections.session)
     if link.serial is not None:
+        from rotator.links.serial import SerialLink
+
         return SerialLink(wire, link.serial, link.serial_baud, connections.session)
     if link.file is not None:
+        from rotator.links.file import FileLink
+
         return FileLink(wire, Path(link.file), connections.session)
     host, port = address(link.where)
     if link.udp is not None:
+        from rotator.links.udp import UdpLink
+        from rotator.protocols.pstrotator import ANSWERS_ABOVE
+
         return UdpLink(
             wire,
             host,
@@ -156,6 +165,8 @@ def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
             allowed=Allowed(link.allow),
         )
     if link.protocol == FOLLOW:
+        from rotator.links.asking import AskingLink
+
         return AskingLink(wire, host, port, connections.follower, every_s=link.poll_s)
     return TcpLink(
         wire,
@@ -176,6 +187,9 @@ def _report(link: Link, source: Source, shared: _Shared) -> Report | None:
     """What a link sends unasked; None: nothing."""
     if link.status_to is None or link.rotor_name is None:
         return None
+    from rotator.links.udp import Report
+    from rotator.protocols.n1mm import N1mmReport
+
     reporter = N1mmReport(_seen_by(link, Client(shared.loop, shared.mount, source)), link.rotor_name)
 
     def due(now_s: float) -> bytes | None:

@@ -1,6 +1,6 @@
-"""Opens a front panel and limit switches as their tables describe them: their share of the composition root.
+"""Opens a front panel as its table describes it: its share of the composition root.
 
-Knows the drivers and the wiring. The panel knows the meaning of a switch, the axis that of a limit. Decides nothing.
+Knows the drivers and the wiring. The panel knows the meaning of a switch. Decides nothing.
 """
 
 from __future__ import annotations
@@ -10,9 +10,8 @@ from functools import partial
 
 from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
-from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from hw.ports import AngleSensor, Axis
 from hw.sensors.pot import PotSensor, Reference
-from hw.sensors.switches import LimitSwitches
 from rotator.assembly.board import Board
 from rotator.config.model import Config
 from rotator.exchange.orders import Order
@@ -21,29 +20,12 @@ from rotator.panel.inputs import KnobWiring
 from rotator.panel.lights import LightWiring
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
-from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.store.knobs import KNOBS
 from rotator.store.state import State
 
 LAMP_TEST_S = 1.0
 METER_HZ = 1000.0
 """The frequency of the meters' outputs: fast enough that a needle does not tremble."""
-
-
-def limit_switches(config: Config, board: Board) -> BlockedDirections:
-    """The directions that the limit switches block; a switch that cannot be read blocks its direction."""
-    if not config.limits.switches:
-        return no_switches
-    inputs = board.inputs("rotator-limits", config.limits.switches)
-    switches = LimitSwitches(inputs, config.limits.switches)
-
-    def ends(axis: Axis) -> frozenset[Direction]:
-        try:
-            return switches.blocked()[axis]
-        except HardwareError:
-            return switches.guarded()[axis]
-
-    return ends
 
 
 def panel_parts(config: Config, board: Board) -> PanelParts:

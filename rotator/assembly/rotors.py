@@ -6,19 +6,21 @@ Part of the composition root. Chooses the sensor of each axis. The use of these 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from hw.ports import AngleSensor, Axis, LeaseWatch
+from hw.ports import AngleSensor, Axis, Direction, HardwareError, LeaseWatch
+from hw.sensors.switches import LimitSwitches
+from hw.sensors.turns import Turns
 from rotator.assembly.adc import Converter, open_adc
 from rotator.assembly.board import Board
 from rotator.assembly.kept_files import build_modelled_file
-from rotator.assembly.panel import limit_switches
 from rotator.assembly.sensors import sensor_chip
 from rotator.assembly.settings import build_offsets
 from rotator.config.model import Config
-from rotator.rotors.counts_writer import Later, at_once
-from rotator.store.counts import NEVER, Standing
+from rotator.rotors.common import BlockedDirections, no_switches
+from rotator.rotors.counts_writer import CountsWriter, Later, at_once
+from rotator.store.counts import NEVER, CountsFile, Place, Standing
 
 
 class Assembly:
@@ -48,13 +50,25 @@ class Assembly:
         self.in_step = in_step
         self.write: Later | None = write if in_step else None
         self.shift = build_offsets(config)
-        self.ends = limit_switches(config, board)
+        self.ends = _limit_switches(config, board)
         self._adc: Converter | None = None
 
     def sensors(self, own: Mapping[Axis, AngleSensor] | None = None) -> dict[Axis, AngleSensor]:
         """The sensor of each axis: the one that the file names, else the rotor's `own`."""
-        named = {axis: self._named(axis) for axis in Axis}
+        named = {axis: self._named(axis) for axis in self.config.fitted}
         return {axis: sensor or (own or {})[axis] for axis, sensor in named.items()}
+
+    def kept_counts(self, axes: Sequence[Axis]) -> tuple[CountsWriter | None, dict[Axis, Place]]:
+        """What keeps the counts of these axes, if a file does, and where each begins.
+
+        A rotor that outlives the program is unknown until it is homed. A simulation begins where the rotor is.
+        """
+        config, writer = self.config, None
+        if self.counts and axes:
+            writer = CountsWriter(CountsFile(self.counts, config.kind.cams(axes)), self.write)
+        kept = writer.load() if writer else {}
+        known = {} if config.keeps_files else {axis: Place(Standing.KNOWN, self.start_deg(axis)) for axis in axes}
+        return writer, {axis: kept.get(axis, known.get(axis, NEVER)) for axis in axes}
 
     def first_deg(self, axis: Axis, configured_deg: float) -> float:
         """The assumed start angle of an axis without feedback: where the last run left it; at first that of the file.
@@ -75,4 +89,21 @@ class Assembly:
         if config.has_pot(axis):
             self._adc = self._adc or open_adc(config.adc, board)
             return self._adc.pot(config.adc.channel(axis))
-        return sensor_chip(config.axis(axis).sensor, board.bus, board.clock, board.sleep)
+        sensor = sensor_chip(config, axis, board)
+        return Turns(sensor) if sensor is not None and config.endless(axis) else sensor
+
+
+def _limit_switches(config: Config, board: Board) -> BlockedDirections:
+    """The directions that the limit switches block; a switch that cannot be read blocks its direction."""
+    if not config.limits.switches:
+        return no_switches
+    inputs = board.inputs("rotator-limits", config.limits.switches)
+    switches = LimitSwitches(inputs, config.limits.switches)
+
+    def ends(axis: Axis) -> frozenset[Direction]:
+        try:
+            return switches.blocked()[axis]
+        except HardwareError:
+            return switches.guarded()[axis]
+
+    return ends

@@ -6,6 +6,7 @@ no kind of rotor: those are in `rotator.assembly.kinds`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -44,13 +45,17 @@ class SimulatedAxes:
         if self.kept_deg is not None:
             return self.kept_deg[place]
         first_deg = self.first_deg[place]
+        if self.config.endless(axis):
+            return (first_deg if configured_deg is None else configured_deg) % 360.0
         return min(max(first_deg if configured_deg is None else configured_deg, table.min_deg), table.max_deg)
 
     def sim(self, axis: Axis) -> SimAxisTable:
         return self.config.sim.of(axis)
 
-    def motor(self, axis: Axis, stop_low_deg: float | None = None) -> MotorSpec:
-        return motor_spec(self.config.axis(axis), self.sim(axis), stop_low_deg)
+    def motor(self, axis: Axis, stop_low_deg: float | None = None, stop_high_deg: float | None = None) -> MotorSpec:
+        if self.config.endless(axis):
+            stop_low_deg, stop_high_deg = -math.inf, math.inf
+        return motor_spec(self.config.axis(axis), self.sim(axis), stop_low_deg, stop_high_deg)
 
     def pot(self, axis: Axis) -> PotSpec:
         sim = self.sim(axis)
@@ -73,12 +78,14 @@ class SimulatedAxes:
         return (low_raw, table.min_deg), (high_raw, table.max_deg)
 
 
-def motor_spec(table: AxisTable, sim: SimAxisTable, stop_low_deg: float | None = None) -> MotorSpec:
+def motor_spec(
+    table: AxisTable, sim: SimAxisTable, stop_low_deg: float | None = None, stop_high_deg: float | None = None
+) -> MotorSpec:
     return MotorSpec(
         speed_dps=sim.speed_dps,
         lag_s=sim.lag_s,
         relay_delay_s=sim.relay_delay_s,
         backlash_deg=sim.backlash_deg,
         stop_low_deg=table.min_deg - STOP_BEYOND_DEG if stop_low_deg is None else stop_low_deg,
-        stop_high_deg=table.max_deg + STOP_BEYOND_DEG,
+        stop_high_deg=table.max_deg + STOP_BEYOND_DEG if stop_high_deg is None else stop_high_deg,
     )

@@ -15,7 +15,7 @@ from typing import Any
 from firmware_sim import world_file
 from firmware_sim.panel import PanelSpec
 from firmware_sim.parts.mount import MountSpec
-from firmware_sim.rotors.rotor import LcdSpec, SimRotor
+from firmware_sim.rotors.rotor import ENCODERS, LcdSpec, SimRotor
 from firmware_sim.world_file import WorldState
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
 from hw.ports import Axis, HardwareError
@@ -23,7 +23,9 @@ from rotator.assembly.adc import simulate_adc
 from rotator.assembly.kinds import builder
 from rotator.assembly.settings import build_offsets
 from rotator.assembly.simulated_axes import SimulatedAxes
+from rotator.config.chips import KERNEL_SELECTS
 from rotator.config.model import Config
+from rotator.config.sensors import COMPASSES, TILTS
 from rotator.exchange.foreign import json_of
 from rotator.store.json_file import number
 from rotator.store.whole import write_whole
@@ -71,22 +73,25 @@ class SimulatedStation:
     def _wire_sensors(self, rotor: SimRotor) -> None:
         config = self._config
         if config.uses_adc:
-            added = [axis for axis in Axis if config.has_pot(axis) and axis.value not in rotor.wipers]
+            added = [axis for axis in config.fitted if config.has_pot(axis) and axis.value not in rotor.wipers]
             rotor.wire_pots({axis.value: self._axes.pot(axis) for axis in added}, config.adc.supply_v)
             simulate_adc(config, rotor, self._axes.clock)
-        for axis in Axis:
+        for axis in config.fitted:
             sensor = config.axis(axis).sensor
             match sensor.kind, sensor.i2c:
-                case "as5600", (_, address):
-                    rotor.wire_as5600(axis.value, address)
-                case "mpu6050", (_, address):
-                    rotor.wire_mpu6050(address, _mounted(sensor.forward, sensor.up))
+                case kind, (number, address) if kind in TILTS:
+                    rotor.wire_tilt(kind, (number, address), _mounted(sensor.forward, sensor.up))
+                case kind, (number, address) if kind in COMPASSES:
+                    rotor.wire_compass(kind, (number, address), _mounted(sensor.forward, sensor.up))
+                case kind, i2c if kind in ENCODERS:
+                    rotor.wire_encoder(axis.value, kind, i2c or (0, KERNEL_SELECTS[sensor.select]))
         if config.compass.kind == "bno055":
             # The simulated mast stands where true and magnetic north are as far apart as the file says.
             turned_deg = config.azimuth.offset_deg - config.compass.offset_deg
             if config.mount.north == "true":
                 turned_deg -= config.mount.declination_deg or 0.0
-            rotor.wire_bno055(config.compass.address, lambda azimuth_deg: azimuth_deg + turned_deg)
+            compass = config.compass.bus, config.compass.address
+            rotor.wire_bno055(compass, lambda azimuth_deg: azimuth_deg + turned_deg)
 
     def _wire_panel(self, rotor: SimRotor) -> None:
         """The front panel, with its mode switch on AUTO."""
@@ -98,7 +103,9 @@ class SimulatedStation:
             **wires,
             lamps=table.lamps,
             meters=table.meters,
+            adc_bus=table.adc_bus,
             adc_address=table.adc_address,
+            outputs_bus=table.outputs_bus,
             outputs_address=table.outputs_address,
             supply_v=table.supply_v,
             meter_full_share=table.meter_full_scale,
@@ -115,6 +122,8 @@ class SimulatedStation:
             at_deg = limits.min_deg - LIMIT_BEYOND_DEG if end == "low" else limits.max_deg + LIMIT_BEYOND_DEG
             if end == "low" and (stop := config.end_stop(Axis(name))):
                 at_deg = stop.home_deg + LIMIT_BEYOND_DEG
+            elif end == "low" and config.rotor.type == "h-bridge" and config.kind.homes(Axis(name)):
+                at_deg = config.bridge.of(Axis(name)).home_deg
             rotor.wire_limit(key, pin, name, at_deg, high=end == "high")
 
 
@@ -147,7 +156,7 @@ def kept_place(path: Path) -> tuple[float, float]:
     """Azimuth and elevation where the last run has left a simulated rotor; 0 and 0: not known."""
     try:
         azimuth, elevation = json_of(path.read_text(encoding="utf-8"))
-        return number(azimuth, "azimuth", -360, 720), number(elevation, "elevation", -360, 720)
+        return number(azimuth, "azimuth", -3.6e9, 3.6e9), number(elevation, "elevation", -360, 720)
     except (OSError, ValueError, TypeError):
         return 0.0, 0.0
 
@@ -167,16 +176,22 @@ def simulated_rotor(
     return SimulatedStation(config, clock, bus_sleep, start_deg).build()
 
 
-def _mounted(forward: str, up: str) -> Callable[[float, float], tuple[float, float, float]]:
-    """The gravity on each of a board's axes, mounted so, from the gravity along the boom and across it."""
+def _mounted(forward: str, up: str) -> Callable[..., tuple[float, float, float]]:
+    """What each of a board's axes feels, mounted so, from what there is along the boom, across it, and to its left."""
 
-    def board_g(along_g: float, across_g: float) -> tuple[float, float, float]:
-        felt = dict.fromkeys("xyz", 0.0)
-        for arrow, part_g in ((forward, along_g), (up, across_g)):
-            felt[arrow[1]] = part_g if arrow[0] == "+" else -part_g
-        return felt["x"], felt["y"], felt["z"]
+    def arrow(name: str) -> tuple[float, float, float]:
+        x, y, z = (((name[1] == axis) * (1.0 if name[0] == "+" else -1.0)) for axis in "xyz")
+        return x, y, z
 
-    return board_g
+    (ax, ay, az), (ux, uy, uz) = arrow(forward), arrow(up)
+    left = uy * az - uz * ay, uz * ax - ux * az, ux * ay - uy * ax
+
+    def board(along: float, across: float, to_left: float = 0.0) -> tuple[float, float, float]:
+        parts = zip((ax, ay, az), (ux, uy, uz), left, strict=True)
+        x, y, z = (ahead * along + upward * across + leftward * to_left for ahead, upward, leftward in parts)
+        return x, y, z
+
+    return board
 
 
 def _lcd(config: Config) -> LcdSpec | None:
@@ -186,6 +201,6 @@ def _lcd(config: Config) -> LcdSpec | None:
             return LcdSpec(lcd.lines)
         case "pcf8574":
             active_high = lcd.backpack not in BACKLIGHT_ACTIVE_LOW
-            return LcdSpec(BACKPACKS[lcd.backpack], lcd.address, active_high)
+            return LcdSpec(BACKPACKS[lcd.backpack], lcd.address, active_high, lcd.bus)
         case _:
             return None

@@ -7,16 +7,19 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rotator.config.model import Config
 from rotator.config.station import StationTable
 from rotator.orbits.catalogue import Catalogue
-from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.orbits.element_files import Read, read_file
 from rotator.orbits.locator import from_locator
 from rotator.store import uploads
 from rotator.store.fetches import FOLDER, file_of
+
+if TYPE_CHECKING:
+    from rotator.orbits.celestial import Sky
 
 
 def build_site(station: StationTable) -> Site | None:
@@ -32,7 +35,11 @@ def build_site(station: StationTable) -> Site | None:
 def build_sky(station: StationTable) -> Sky | None:
     """The sky over the station, by the system's clock; None where the file names no place."""
     site = build_site(station)
-    return None if site is None else Sky(site, time.time)
+    if site is None:
+        return None
+    from rotator.orbits.celestial import Sky  # noqa: PLC0415 - slow to load
+
+    return Sky(site, time.time)
 
 
 def build_catalogue(config: Config) -> Catalogue:

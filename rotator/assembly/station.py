@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from firmware_sim.rotors.rotor import SimRotor
 from firmware_sim.world_file import WorldWriter
@@ -21,17 +22,18 @@ from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import Sentinel
 from rotator.assembly.board import Board
 from rotator.assembly.kinds import builder
-from rotator.assembly.panel import panel_parts, panel_thread
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulation import PLACE_FILE, SimulatedStation, keep_place, kept_place
 from rotator.config.model import Config
 from rotator.exchange.orders import Order
-from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.counts_writer import Later, at_once
 from rotator.rotors.port import AddAlarm, Rotor
 from rotator.runtime.loop import ControlLoop
 from rotator.store import counts as counts_file
 from rotator.store.state import State
+
+if TYPE_CHECKING:
+    from rotator.panel.thread import PanelParts, PanelThread
 
 
 def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
@@ -39,7 +41,7 @@ def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
 
     `chip` finds the path of the GPIO chip, and is called only where there is such a line. Raises HardwareError.
     """
-    lines = [line for line in config.kind.off_lines() if line.stops]
+    lines = [line for line in config.off_lines() if line.stops]
     if not lines:
         return None
     active_low = any(line.off_high for line in lines if line.switches)
@@ -109,7 +111,7 @@ class Station:
                 write=write,
             )
             self.rotor = builder(config.rotor.type).build(parts, outputs)
-            self.panel = panel_parts(config, self.board) if config.panel.fitted else None
+            self.panel = self._open_panel() if config.panel.fitted else None
             self.display = self._open_display()
             opened.callback(self._end_motion)
             self._opened = opened.pop_all()
@@ -162,6 +164,11 @@ class Station:
         opened.callback(outputs.close)
         return outputs
 
+    def _open_panel(self) -> PanelParts:
+        from rotator.assembly.panel import panel_parts  # noqa: PLC0415 - many a box has no panel
+
+        return panel_parts(self._config, self.board)
+
     def _open_display(self) -> CharacterDisplay | None:
         table = self._config.lcd
         match table.kind:
@@ -197,6 +204,8 @@ def fitted_panel(
     """The front panel of a running box, not started yet; None: it has none. `post` takes its orders."""
     if station.panel is None:
         return None
+    from rotator.assembly.panel import panel_thread  # noqa: PLC0415 - many a box has no panel
+
     return panel_thread(
         config,
         station.panel,

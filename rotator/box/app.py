@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from rotator.assembly.station import Station, open_station
 from rotator.box.parts import build_parts, lcd_rows
-from rotator.calibrating.at_start import watch_at_start
 from rotator.config.model import Config
 from rotator.exchange.orders import Take
 from rotator.exchange.spoken import held_by
@@ -142,6 +141,8 @@ class App:
         if built.calibration:
             side.append(("the calibration", self._calibrate(built.calibration)))
         elif self.config.compass.at_start:
+            from rotator.calibrating.at_start import watch_at_start  # noqa: PLC0415 - many a box has no compass
+
             state = built.remembered.state
             side.append(("compass", watch_at_start(self.config, self.station.board, self.loop, state)))
         for name, work in side:

@@ -4,11 +4,14 @@ Knows which part is given to which. Knows no driver, kind of rotor or protocol: 
 not know the order in which the parts start and stop: `app` does.
 """
 
+# ruff: noqa: PLC0415 - a box loads the parts that it has
+
 from __future__ import annotations
 
 import itertools
 import os
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 from functools import partial
@@ -25,17 +28,16 @@ from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station, fitted_panel
 from rotator.assembly.tracking import build_tracking
 from rotator.box.remembered import Remembered, remembered
-from rotator.calibrating.stops import only_stops
 from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path
 from rotator.control.sky.mount import Mount
+from rotator.exchange.orders import Order
 from rotator.exchange.sources import KEYBOARD, Source
 from rotator.links.console import ConsoleSocket
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
-from rotator.mqtt.build import build_mqtt
-from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
+from rotator.protocols.session import Tracking
 from rotator.runtime.anew import Anew
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.client import Client
@@ -54,6 +56,7 @@ if TYPE_CHECKING:
     from rotator.fetching.thread import FetchThread
     from rotator.links.elements import ElementsServer
     from rotator.mqtt.thread import MqttThread
+    from rotator.panel.thread import PanelThread
     from rotator.web.thread import PageThread
 
 
@@ -152,9 +155,9 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         if pairings
         else None
     )
-    mqtt = build_mqtt(config, loop, mount, tracking.tracker)
+    mqtt = _mqtt(config, loop, mount, tracking.tracker) if config.mqtt.broker is not None else None
     post = partial(loop.post, Source("panel"))
-    panel = fitted_panel(config, station, loop, only_stops(post) if calibration else post, before.state)
+    panel = fitted_panel(config, station, loop, _stops(post) if calibration else post, before.state)
     if panel:
         tap.on_data = panel.data_received
     display = station.display
@@ -185,6 +188,18 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
 
 
 def _calibration_of(config: Config, axis: Axis, path: Path) -> PageCalibration:
-    from rotator.calibrating.on_page import PageCalibration  # noqa: PLC0415 - a normal start does without its guides
+    from rotator.calibrating.on_page import PageCalibration
 
     return PageCalibration(config, axis, path, time.monotonic)
+
+
+def _stops(post: Callable[[Order], None]) -> Callable[[Order], None]:
+    from rotator.calibrating.stops import only_stops
+
+    return only_stops(post)
+
+
+def _mqtt(config: Config, loop: ControlLoop, mount: Mount, tracking: Tracking) -> MqttThread | None:
+    from rotator.mqtt.build import build_mqtt
+
+    return build_mqtt(config, loop, mount, tracking)

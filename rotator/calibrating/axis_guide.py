@@ -16,7 +16,7 @@ from rotator.calibrating.guide import Abandoned, Guide
 from rotator.calibrating.phrases import Phrases, phrases_for
 from rotator.calibrating.reading_watch import AxisMoved, ReadingWatch
 from rotator.calibrating.readings import READINGS, SHARES, Measured, NotTrusted, ReadingUnit, measure
-from rotator.calibrating.results import AxisCalibrated
+from rotator.calibrating.results import Saved
 from rotator.exchange.faults import FaultKind, Notice
 from rotator.exchange.orders import Jog, Stop
 from rotator.exchange.status import AxisStatus, Status
@@ -51,7 +51,7 @@ def turned_the_wrong_way(axis: AxisStatus) -> bool:
 class AxisGuide(Guide):
     def __init__(self, facts: AxisFacts) -> None:
         self.facts = facts
-        self.result: AxisCalibrated | None = None
+        self.result: Saved | None = None
         self._phrases: Phrases = phrases_for(facts.axis)
         super().__init__(self._phrases.keys, facts.least_deg, facts.greatest_deg)
         self._watch = ReadingWatch(facts.axis, facts.unit, facts.settle_s)

@@ -41,13 +41,19 @@ class DegreesGuide(AxisGuide):
         self._say("", *phrases.direction_check)
         if self._traits.homes:
             yield from self._check_by_eye()
+            if (yield from self._times()):
+                return
             yield from self._find_end_stop()
         else:
             yield from self._check_by_reading()
         number = 3 if self._traits.homes else 2
-        low_deg = yield from self._limit(f"{number}. The lowest", facts.min_deg, facts.least_deg)
-        high_deg = yield from self._limit(f"{number + 1}. The highest", facts.max_deg, low_deg + LEAST_SPAN_DEG)
-        self._say("", f"[{facts.axis.value}]: limits {low_deg:g} to {high_deg:g}, direction checked.")
+        if self._traits.endless:
+            low_deg, high_deg = facts.min_deg, facts.max_deg
+            self._say("", f"[{facts.axis.value}]: no ends, direction checked.")
+        else:
+            low_deg = yield from self._limit(f"{number}. The lowest", facts.min_deg, facts.least_deg)
+            high_deg = yield from self._limit(f"{number + 1}. The highest", facts.max_deg, low_deg + LEAST_SPAN_DEG)
+            self._say("", f"[{facts.axis.value}]: limits {low_deg:g} to {high_deg:g}, direction checked.")
         if (yield from self._agrees("Save this? y or n:")):
             self.result = AxisCalibrated(facts.axis, None, low_deg, high_deg)
         else:
@@ -59,19 +65,28 @@ class DegreesGuide(AxisGuide):
         """Ask for the angle: after power-on a controller behind a gear does not know it, and does not move before."""
         yield
         yield from self._await_axis()
-        while position_unknown(self._axis):
-            self._say("", "The controller does not know where it stands. Look at the antenna.")
+        while self._unknown:
+            self._say("", f"The {self._who} does not know where it stands. Look at the antenna.")
             angle_deg = yield from self._number("Which angle is that on the rotor's own scale?", None)
             if angle_deg is not None:
                 yield from self._confirm(angle_deg)
 
+    @property
+    def _unknown(self) -> bool:
+        """Only a person can say where the axis stands."""
+        return position_unknown(self._axis) or (needs_homing(self._axis) and not self._traits.homes)
+
+    @property
+    def _who(self) -> str:
+        return "box" if needs_homing(self._axis) else "controller"
+
     def _confirm(self, angle_deg: float) -> Steps:
         self._orders.append(Confirm(self.facts.axis, angle_deg + self._traits.shift_deg))
         began_s = self._now_s
-        while position_unknown(self._axis) and self._now_s - began_s < CONFIRM_S:
+        while self._unknown and self._now_s - began_s < CONFIRM_S:
             yield
-        if position_unknown(self._axis):
-            self._say("The controller did not accept this angle.")
+        if self._unknown:
+            self._say(f"The {self._who} did not accept this angle.")
         else:
             self._say(f"It stands at {self._angle_text()}.")
 
@@ -106,6 +121,11 @@ class DegreesGuide(AxisGuide):
         self._say("The directions are right.")
 
     # --- the end stop
+
+    def _times(self) -> Generator[None, None, bool]:
+        """Whether the axis has been timed from stop to stop, and nothing more is to be asked."""
+        yield from ()
+        return False
 
     def _find_end_stop(self) -> Steps:
         self._say("", "2. The end stop, where the count begins.", *self._phrases.homing)

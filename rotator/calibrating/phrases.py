@@ -102,6 +102,17 @@ class Phrases:
         "   Watch the antenna: it turns {minus} to its stop, a little back, and there again.",
         "   The box cannot tell a stop from a branch that the antenna hangs in; you can. Space or s stops it.",
     )
+    stopwatch = _Lines(
+        "2. The times. The box turns the {axis} from stop to stop, and you watch the antenna: when it has arrived and",
+        "   stands there, press Enter. The rotor's own end switches must work. Space or s stops the motor at any time.",
+    )
+    to_low_stop = _Sentence("First {minus}, to its stop. This way is not timed.")
+    time_to_high = _Sentence("Now {plus}, to the other stop. The watch runs from the motor's start to your Enter.")
+    time_to_low = _Sentence("And back, {minus}.")
+    too_slow = _Sentence(
+        "if it was still on its way, the rotor is slower than the file says: write a smaller {axis}.speed_dps,",
+        "take the times out, and begin again.",
+    )
     to_low_end = _Lines(
         "2. The {low_end}. Drive it there with {minus_key} ({minus}): to its stop, or to a mark you trust.",
         "   Just before the stop is better than hard against it.",

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from hw.ports import Axis
+from hw.ports import Axis, Ellipse
 from rotator.config.mount import SkyRow
 from rotator.control.sky.pointing_model import PointingModel
 
@@ -20,6 +20,15 @@ class AxisCalibrated:
     """(reading, degrees) in rising degrees. None: the axis reads degrees and needs no table."""
     min_deg: float
     max_deg: float
+    times_s: tuple[float, float] | None = None
+    """From stop to stop, up and down, of an axis from which nothing comes back; None: not measured."""
+
+
+@dataclass(frozen=True, slots=True)
+class FieldLearnt:
+    """What the compass that is the azimuth's sensor has learnt of the iron around it."""
+
+    ellipse: Ellipse
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +54,7 @@ class AngleConfirmed:
     angle_deg: float
 
 
-Saved = AxisCalibrated | NorthFound | MountFound
+Saved = AxisCalibrated | FieldLearnt | NorthFound | MountFound
 Result = Saved | AngleConfirmed
 
 
@@ -73,9 +82,11 @@ def as_toml(result: Saved) -> str:
 def _keys(result: Saved) -> tuple[str, dict[str, Any]]:
     """The table, and what becomes of its keys."""
     match result:
-        case AxisCalibrated(axis, points, min_deg, max_deg):
+        case AxisCalibrated(axis, points, min_deg, max_deg, times_s):
             limits = {"min_deg": min_deg, "max_deg": max_deg, "direction_checked": True}
-            return axis.value, {"calibration": points, **limits}
+            return axis.value, {"calibration": points, "times_s": times_s, **limits}
+        case FieldLearnt(ellipse):
+            return "azimuth.sensor", asdict(ellipse)
         case NorthFound(offset_deg):
             return Axis.AZIMUTH.value, {"offset_deg": offset_deg}
         case MountFound(model, points):

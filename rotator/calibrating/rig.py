@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from contextlib import ExitStack
 
-from hw.ports import Axis, HardwareError
+from hw.ports import Axis, FeelsField, HardwareError
 from rotator.assembly.board import Board
 from rotator.assembly.calibration import (
     SCALES_DEG,
@@ -25,9 +25,11 @@ from rotator.calibrating.compass import CompassReader
 from rotator.calibrating.degrees_guide import DegreesGuide
 from rotator.calibrating.entries import Entry
 from rotator.calibrating.facts import north_facts
+from rotator.calibrating.field_guide import FieldGuide
 from rotator.calibrating.guide import Guide
 from rotator.calibrating.north_guide import NorthGuide
 from rotator.calibrating.readings import DEGREES
+from rotator.calibrating.stopwatch_guide import StopwatchGuide
 from rotator.calibrating.table_guide import TableGuide
 from rotator.config.model import Config
 from rotator.control.controller import Controller
@@ -66,11 +68,42 @@ class AxisRig(Rig):
     guide: AxisGuide
 
     def __init__(self, config: Config, axis: Axis, station: Station, clock: Callable[[], float]) -> None:
-        self.guide = axis_guide(config, axis)
+        self.guide = self._guide(config, axis)
         self.loop = control_loop(config, calibration_controller(config, axis), station, clock)
+
+    def _guide(self, config: Config, axis: Axis) -> AxisGuide:
+        return axis_guide(config, axis)
 
     def picture(self) -> tuple[str, bool]:
         return picture(self.guide, self.loop)
+
+
+class FieldRig(AxisRig):
+    """The azimuth, while the compass that is its sensor learns its iron. Raises HardwareError where it has none."""
+
+    guide: FieldGuide
+
+    def __init__(self, config: Config, station: Station, clock: Callable[[], float]) -> None:
+        sensor = station.rotor.sensors.get(Axis.AZIMUTH)
+        if not isinstance(sensor, FeelsField):
+            raise HardwareError(
+                "the azimuth has no compass as its sensor, so there is none that could learn: see rotator help compass"
+            )
+        sensor.ellipse = None
+        self._sensor: FeelsField = sensor
+        super().__init__(config, Axis.AZIMUTH, station, clock)
+
+    def _guide(self, config: Config, axis: Axis) -> FieldGuide:
+        return FieldGuide(axis_facts(config, axis))
+
+    def step(self, entry: Entry | None = None) -> tuple[str, ...]:
+        if self._sensor.field_ut:
+            self.guide.feel(self._sensor.field_ut)
+        return super().step(entry)
+
+    def picture(self) -> tuple[str, bool]:
+        ahead_ut, left_ut = self._sensor.field_ut or (math.nan, math.nan)
+        return f"field {ahead_ut:.1f} µT ahead, {left_ut:.1f} µT to the left", super().picture()[1]
 
 
 class NorthRig(Rig):
@@ -146,22 +179,29 @@ def picture(guide: AxisGuide, loop: ControlLoop) -> tuple[str, bool]:
     return f"reading {reading}{direction}", bool(axis.drive)
 
 
+def axis_facts(config: Config, axis: Axis) -> AxisFacts:
+    """Of an axis that tells degrees."""
+    table, traits = config.axis(axis), calibration_traits(config, axis)
+    return AxisFacts(
+        axis,
+        table.min_deg,
+        table.max_deg,
+        -math.inf,
+        math.inf,
+        *traits.reach_deg,
+        unit=DEGREES,
+        settle_s=traits.settle_s,
+    )
+
+
 def axis_guide(config: Config, axis: Axis) -> AxisGuide:
     """The guide that fits the axis's sensor. Raises HardwareError where the axis cannot be calibrated this way."""
     table = config.axis(axis)
+    if not table.sensor.learnt:
+        raise HardwareError("the compass has to learn its iron first: rotator calibrate compass (rotator help compass)")
     if config.in_degrees(axis):
         traits = calibration_traits(config, axis)
-        facts = AxisFacts(
-            axis,
-            table.min_deg,
-            table.max_deg,
-            -math.inf,
-            math.inf,
-            *traits.reach_deg,
-            unit=DEGREES,
-            settle_s=traits.settle_s,
-        )
-        return DegreesGuide(facts, traits)
+        return (StopwatchGuide if traits.timed else DegreesGuide)(axis_facts(config, axis), traits)
     if not config.rotor.switched:
         raise HardwareError(
             f"{axis.value}: this rotor is sent angles, so it can be turned only when its {table.sensor.kind} is "

@@ -17,7 +17,7 @@ from hw.ports import Axis
 from rotator.assembly.kept_files import build_state
 from rotator.assembly.station import Station
 from rotator.calibrating.results import AngleConfirmed, Result, as_toml, save, saved_in
-from rotator.calibrating.rig import AxisRig, NorthRig, Rig
+from rotator.calibrating.rig import AxisRig, FieldRig, NorthRig, Rig
 from rotator.calibrating.sky_rig import SkyRig, receiver_at
 from rotator.calibrating.sky_table import Residuals
 from rotator.calibrating.stops import UNREACHED, Stops
@@ -30,7 +30,7 @@ from rotator.runtime.engine import Engine
 from rotator.store.latch import KeptLatch
 
 POLL_S = 0.02
-NORTH, SKY = "north", "sky"
+COMPASS, NORTH, SKY = "compass", "north", "sky"
 SIMULATED = (
     "SIMULATED rotor: nothing real turns. It begins at its low stops: where a question wants the middle of the travel, "
     "first hold the key for clockwise, or up, for some seconds."
@@ -83,7 +83,7 @@ class CalibrationSession:
         self._on_open = on_open
 
     async def run(self, tasks: Sequence[str], stop: asyncio.Event) -> bool:
-        """`tasks`: names of axes, NORTH or SKY. Returns whether every one of them has a result that is saved."""
+        """`tasks`: names of axes, COMPASS, NORTH, SKY. Returns whether every one of them has a result that is saved."""
         if self._config.rotor.hardware == "sim":
             self._screen.show(SIMULATED)
         for task in tasks:
@@ -98,6 +98,8 @@ class CalibrationSession:
         return True
 
     def _rig(self, task: str, station: Station) -> Rig:
+        if task == COMPASS:
+            return FieldRig(self._config, station, time.monotonic)
         if task == NORTH:
             # A real chip must never get the corrections of a simulated one.
             corrections = build_state(self._config, self._path) if self._config.keeps_files else None

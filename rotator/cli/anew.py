@@ -16,7 +16,7 @@ from rotator.box.app import App
 from rotator.cli.failed import CommandFailed
 from rotator.config import toml_text
 from rotator.config.load import ConfigError
-from rotator.config.writing import WRITING
+from rotator.config.toml_text import WRITING
 from rotator.links.wire import LinkError
 from rotator.runtime.anew import Anew
 from rotator.store.whole import write_whole
@@ -31,7 +31,7 @@ def text_of(path: Path | None) -> str | None:
     """The text that a start now would use; None: there is none, which the start itself says."""
     try:
         return toml_text.read(path) if path else None
-    except (OSError, toml_text.NoTextError):
+    except (OSError, ConfigError):
         return None
 
 

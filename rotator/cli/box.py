@@ -6,6 +6,7 @@ its commands must be quick. The box decides whether it obeys.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Self
@@ -14,6 +15,7 @@ from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import consoles, reach
 from rotator.exchange.foreign import json_of
 
+LOOK_S = 0.02
 ANSWER_S = 5.0
 """The longest wait for an answer, in seconds."""
 OK, ERROR = "ok", "error: "
@@ -64,6 +66,17 @@ class RunningBox:
         except OSError:
             pass
         raise CommandFailed(ENDED)
+
+    def done(self, words: str) -> list[str]:
+        """The same, and return when the box has acted on it: what is asked next, by any program, is told so."""
+        answers = self.order(words)
+        until_s = time.monotonic() + ANSWER_S
+        # A box that runs since before an update does not say it.
+        while self.status().get("orders_wait"):
+            if time.monotonic() > until_s:
+                raise DoesNotAnswer(f"the box has the order, and has done nothing with it for {ANSWER_S:g} s")
+            time.sleep(LOOK_S)
+        return answers
 
     def status(self) -> BoxStatus:
         (line,) = self.order("status json")

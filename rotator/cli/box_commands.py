@@ -30,13 +30,13 @@ POINT = command(
     CONFIG,
     WAIT,
     Argument(["azimuth_deg"], type=Number("degrees"), metavar="AZIMUTH"),
-    Argument(["elevation_deg"], type=Number("degrees"), metavar="ELEVATION"),
+    Argument(["elevation_deg"], type=Number("degrees"), metavar="[ELEVATION]", required=False),
     cls=NumbersCommand,
     says="""Point the antenna, and wait until it has arrived.
 
     AZIMUTH counts from north over east, ELEVATION from the horizon, in degrees. Above 360 AZIMUTH names a turn of the
-    rotor. Ctrl-C stops the antenna; a terminal that closes does not: it goes on to its place. The exit code is 0 when
-    it has arrived, 3 when a fault stopped it.
+    rotor. Without ELEVATION that axis keeps what it has. Ctrl-C stops the antenna; a terminal that closes does not: it
+    goes on to its place. The exit code is 0 when it has arrived, 3 when a fault stopped it.
     """,
     examples=["rotator point 180 45", "rotator point 237,5 12,5"],
 )

@@ -37,6 +37,7 @@ from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import monitor_path
 from rotator.config.station import NO_PLACE
+from rotator.control.refused import is_not_fitted
 from rotator.exchange.spoken import held_by, spoken
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, Target
@@ -57,7 +58,7 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
     *,
     plain: bool,
 ) -> int:
-    """`what`: an axis, `north`, `sky`, or None for both axes. The exit code: 0 when everything has been set up.
+    """`what`: an axis, `compass`, `north`, `sky`, or None for both axes. The exit code: 0 when all has been set up.
 
     For the sky, `target`: a name; None: the Sun. `at_s`: the moment at which a simulated calibration begins; None: now.
     `receiver`: the address of its rigctld, or `sim`; None: a person finds the target. `svg`: the picture of the points.
@@ -76,7 +77,12 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
         return time.time() + later_s
 
     seen = _target(config, target or "sun", utc(), receiver) if what == SKY else None
-    tasks = [axis.value for axis in Axis] if what is None else [what]
+    tasks = [axis.value for axis in config.fitted] if what is None else [what]
+    if alone := next((axis.value for axis in Axis if axis not in config.fitted), ""):
+        if what == alone:
+            raise CommandFailed(is_not_fitted(alone))
+        if what == SKY:
+            raise CommandFailed(f"the sky shows the errors of a mount with two axes, and {is_not_fitted(alone)}")
     plain = plain or not (sys.stdin.isatty() and draws())
     screen: PlainLines = PlainLines() if plain else LivePicture()
 

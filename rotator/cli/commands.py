@@ -19,6 +19,7 @@ import click
 from click.exceptions import NoArgsIsHelpError
 
 from rotator.cli.lines import in_front, say
+from rotator.runtime.memory import loading
 
 CONFIG = click.Option(
     ["--config", "path"], type=click.Path(path_type=Path, readable=False), metavar="FILE", help="The box's file (TOML)."
@@ -107,7 +108,8 @@ def command(
 def loaded(work: str) -> Callable[..., int | None]:
     """The function that carries a command out."""
     module, _, name = work.partition(":")
-    function: Callable[..., int | None] = getattr(import_module(f"rotator.cli.{module}"), name)
+    with loading():
+        function: Callable[..., int | None] = getattr(import_module(f"rotator.cli.{module}"), name)
     return function
 
 

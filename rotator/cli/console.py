@@ -30,7 +30,7 @@ NEAR_DEG = 3.0
 def tell(path: Path | None, words: Sequence[str]) -> None:
     """Send words to the console and print the answer. Without words: print the list of its words."""
     with RunningBox(path) as box:
-        for answer in box.order(" ".join(words) or "help") or [OK]:
+        for answer in box.done(" ".join(words) or "help") or [OK]:
             say(answer)
 
 
@@ -56,8 +56,7 @@ def resume(path: Path | None) -> None:
     """Release the antenna. Raises CommandFailed for a fault whose cause is still there."""
     with RunningBox(path) as box:
         before = box.status()
-        box.order("resume")
-        time.sleep(LOOK_S)
+        box.done("resume")
         after = box.status()
     if failed := faults(after):
         raise CommandFailed("\n         ".join(("the cause is still there:", *failed)), FAULTY)
@@ -71,7 +70,7 @@ def resume(path: Path | None) -> None:
 def let_go(path: Path | None, *, yes: bool) -> None:
     with RunningBox(path) as box:
         agree("Without torque an antenna that is out of balance turns. Let go of both axes?", yes=yes)
-        box.order("let-go")
+        box.done("let-go")
     click.echo("The motors are without torque. Nothing moves until `rotator resume`.")
 
 
@@ -82,7 +81,7 @@ def confirm(path: Path | None, axis: str, angle_deg: float) -> None:
     """
     with RunningBox(path) as box:
         before = box.status()
-        box.order(f"confirm {axis} {typed(angle_deg)}")
+        box.done(f"confirm {axis} {typed(angle_deg)}")
         until_s = time.monotonic() + CONFIRMED_S
         while not (taken := _is_near(after := box.status(), axis, angle_deg)) and time.monotonic() < until_s:
             time.sleep(LOOK_S)
@@ -106,7 +105,7 @@ def relays_checked(path: Path | None, axis: str, *, yes: bool) -> None:
         if not now["relays_in_doubt"]:
             raise Refused(no_relay_in_doubt(axis))
         agree(f"With both relays of {axis} switched off: does its motor have no current, from either of them?", yes=yes)
-        box.order(f"relays-checked {axis}")
+        box.done(f"relays-checked {axis}")
         failed = faults(box.status(), (axis,))
     click.echo(
         f"The relays of {axis} count as open." + (" Acknowledge the fault with `rotator resume`." if failed else "")

@@ -38,11 +38,13 @@ SAME_DEG = 1.0
 """An end of the range may be off by so much, by the offsets of the file, without a word."""
 
 
-def point(path: Path | None, azimuth_deg: float, elevation_deg: float, *, wait: bool) -> None:
+def point(path: Path | None, azimuth_deg: float, elevation_deg: float | None, *, wait: bool) -> None:
     """Point there, and return when the antenna has arrived. Raises CommandFailed if it has not."""
-    reached = _travel(path, f"point {typed(azimuth_deg)} {typed(elevation_deg)}", wait=wait)
-    rests_deg = reached["elevation"]["target_deg"] if reached else None
-    if rests_deg is not None and elevation_deg + SAME_DEG < rests_deg <= ZENITH_DEG:
+    numbers = [typed(each) for each in (azimuth_deg, elevation_deg) if each is not None]
+    reached = _travel(path, f"point {' '.join(numbers)}", wait=wait)
+    raised = reached["elevation"] if reached else None
+    rests_deg = raised["target_deg"] if raised and raised["fitted"] else None
+    if rests_deg is not None and elevation_deg is not None and elevation_deg + SAME_DEG < rests_deg <= ZENITH_DEG:
         why = "its range, [mount] horizon, or a forbidden sector"
         click.echo(f"It points no lower than {rests_deg:.1f}° there: {why}.")
 
@@ -75,7 +77,7 @@ def home(path: Path | None, axis: str, *, yes: bool) -> None:
         signal.signal(signum, signal.default_int_handler)
     with RunningBox(path) as box:
         before = box.status()
-        if before[axis]["angle_source"] != "counted":
+        if not before[axis]["homeable"]:
             raise Refused(needs_no_homing(axis))
         agree(f"Watch the antenna: {axis} turns to its low end. Ctrl-C stops it. Begin?", yes=yes)
         with _stops_unless_done(path):

@@ -15,9 +15,7 @@ import sys
 import time
 from contextlib import nullcontext, suppress
 from pathlib import Path
-from typing import TextIO, cast
-
-from rich.console import RenderableType
+from typing import TYPE_CHECKING, TextIO, cast
 
 from rotator import __version__
 from rotator.box.app import App
@@ -35,11 +33,14 @@ from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path, runtime_folder
 from rotator.runtime.anew import Anew
-from rotator.runtime.one_heap import use_one_heap
+from rotator.runtime.memory import use_one_heap
 from rotator.runtime.open_files import allow_enough
 from rotator.runtime.signals import SignalThread
-from rotator.views import plain_lines, terminal
-from rotator.views.sky_plot import Trail
+from rotator.views import plain_lines
+from rotator.views.words import KEYS
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
 
 PAGE_LOOKS = 30
 """The greeting waits so many looks for a page that does not listen yet."""
@@ -146,7 +147,7 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
 
     def greeting() -> list[str]:
         lines = plain_lines.greeting(__version__, app.config.rotor.hardware, wires)
-        return [*lines, "  keys: " + ", ".join(terminal.KEYS).replace("   ", ", ")] if in_front(sys.stdin) else lines
+        return [*lines, "  keys: " + ", ".join(KEYS).replace("   ", ", ")] if in_front(sys.stdin) else lines
 
     def key(pressed: str) -> None:
         nonlocal printed
@@ -168,6 +169,9 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
 
 
 async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRows) -> None:
+    from rotator.views import terminal  # noqa: PLC0415 - plain lines do without rich
+    from rotator.views.sky_plot import Trail  # noqa: PLC0415 - plain lines do without it
+
     wires = app.wires
     keys, trail, plain = RunKeys(app.console, app.typed), Trail(), has_ascii_only(screen)
 

@@ -15,16 +15,16 @@ import tty
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import IO, cast
-
-from rich.console import Console, RenderableType
-from rich.live import Live
+from typing import IO, TYPE_CHECKING, cast
 
 from rotator.cli.lines import in_front
 from rotator.cli.output import Output
 from rotator.exchange.spoken import spoken
 from rotator.runtime.signals import never_pause
 from rotator.views.plain_characters import ascii_only
+
+if TYPE_CHECKING:
+    from rich.console import Console, RenderableType
 
 PICTURE_HZ = 5
 LOG_ROWS = 40
@@ -66,6 +66,8 @@ def stop_on_signals() -> asyncio.Event:
 
 def terminal_console(output: Output) -> Console:
     """A console for `draw` whose terminal may stop reading."""
+    from rich.console import Console  # noqa: PLC0415 - plain lines do without it
+
     return Console(file=cast(IO[str], output))
 
 
@@ -80,6 +82,8 @@ async def draw(
 
     `whole_screen`: the picture fills the terminal, also after a change of its size; at the end the old text is back.
     """
+    from rich.live import Live  # noqa: PLC0415 - plain lines do without it
+
     with keys_to(key), Live(console=console, auto_refresh=False, screen=whole_screen) as live:
         while True:
             live.update(render(), refresh=True)

@@ -90,12 +90,16 @@ CALIBRATE = command(
     CONFIG,
     FAULT,
     Option(["--plain"], is_flag=True, help="Lines in and out even in a terminal."),
-    Argument(["what"], required=False, type=Choice(["azimuth", "elevation", "north", "sky"], case_sensitive=False)),
+    Argument(
+        ["what"],
+        required=False,
+        type=Choice(["azimuth", "elevation", "compass", "north", "sky"], case_sensitive=False),
+    ),
     Option(["--target"], metavar="NAME", help="sky: what the antenna is steered to; the Sun, if left out."),
     Option(["--at", "at_s"], type=utc_time, metavar="UTC", help="sky: begin at this moment; for a simulated rotor."),
     Option(["--receiver"], metavar="HOST:PORT", help="sky: its rigctld; the box finds the target by the strength."),
     Option(["--svg"], type=FILE, metavar="FILE", help="sky: draw the points."),
-    says="""Set up axes, find north, or how the mount leans.
+    says="""Set up axes or a compass, find north, or how the mount leans.
 
     It asks, saves the result in the file, and keeps the file before as FILE.bak. End the box first.
     """,

@@ -24,7 +24,7 @@ WHERE = command(
     context_settings=ANY_WORDS,
     says="""Show where NAME is.
 
-    NAME: ISS, 25544, so50, sun, moon, mars, "cas a", another station's locator, or AZ EL.
+    NAME: ISS, 25544, so50, sun, moon, mars, "cas a", another station's locator or country, or AZ EL.
     """,
     examples=["rotator sky where moon --at 2026-12-24T18:00:00Z"],
 )

@@ -115,10 +115,10 @@ def _planned(box: RunningBox) -> str:
 
 def _stays(words: str) -> str:
     """Of a direction that does not move. A name such as FO29 is a locator where no satellite of that name is known."""
-    from rotator.orbits.targets import is_locator  # noqa: PLC0415 - no other answer needs it
+    from rotator.orbits.targets import place  # noqa: PLC0415 - no other answer needs it
 
-    there = f"points at the locator {words.upper()}" if is_locator(words) else "goes there"
-    return f"The antenna {there}, and stays."
+    there = place(words)
+    return f"The antenna {f'points at {there[0]}' if there else 'goes there'}, and stays."
 
 
 def _is_nothing(state: str) -> bool:

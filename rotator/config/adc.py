@@ -5,6 +5,7 @@ Knows its keys and defaults, and how many inputs each converter has. Knows no dr
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -58,24 +59,17 @@ class Adc(Table):
             return "A sick chip, or not an ADS1115 at adc.address."
         return "Its VDD and VREF on 3.3 V; CLK, DIN, DOUT and CS on adc.sck, si, so and select; an MCP3208?"
 
-    def faults(self) -> list[str]:
-        """Contradictions between the keys of the table, one sentence each. Only asked where a pot is in use."""
-        channels = {
-            "azimuth_channel": self.azimuth_channel,
-            "elevation_channel": self.elevation_channel,
-            "reference_channel": self.reference_channel,
-        }
+    def faults_in_use(self) -> Iterator[str]:
+        """Contradictions between the keys of the table, which matter only where a pot is in use."""
+        channels = self.given("azimuth_channel", "elevation_channel", "reference_channel")
         last = INPUTS[self.kind] - 1
-        faults = [
-            f"adc.{key} = {channel}: an {self.kind.upper()} has the inputs 0 to {last}"
-            for key, channel in channels.items()
-            if channel is not None and channel > last
-        ]
+        for key, channel in channels.items():
+            if channel > last:
+                yield f"adc.{key} = {channel}: an {self.kind.upper()} has the inputs 0 to {last}"
         if len(set(channels.values())) < len(channels):
-            faults.append("adc: azimuth_channel, elevation_channel and reference_channel must differ")
+            yield "adc: azimuth_channel, elevation_channel and reference_channel must differ"
         if self.kind == "mcp3208" and self.reference_channel is not None:
-            faults.append("adc.reference_channel: an MCP3208 measures against its VREF; wire that to the pots' supply")
-        return faults
+            yield "adc.reference_channel: an MCP3208 measures against its VREF; wire that to the pots' supply"
 
     def chips(self) -> list[I2CChip]:
         """The converter, where it is on an I2C bus."""
@@ -85,5 +79,5 @@ class Adc(Table):
         """The converter, where it is on SPI."""
         if self.kind != "mcp3208":
             return []
-        wires = {"sck": self.sck, "si": self.si, "so": self.so}
-        return [SpiUse("adc", "converter", {"select": self.select}, wires, kernel=self.spi == "kernel")]
+        wires = self.given("sck", "si", "so")
+        return [SpiUse("adc", "converter", self.given("select"), wires, kernel=self.spi == "kernel")]

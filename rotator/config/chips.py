@@ -8,15 +8,26 @@ register, and not which chips a configuration uses: its tables say that.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
+
+from rotator.config.table import twice
 
 ADDRESSES: dict[str, tuple[int, ...]] = {
     "ADS1115": tuple(range(0x48, 0x4C)),
     "PCA9685": tuple(range(0x40, 0x48)),
     "PCF8574": (*range(0x20, 0x28), *range(0x38, 0x40)),
     "AS5600": (0x36, 0x40),
+    "AS5048B": tuple(range(0x40, 0x44)),
+    "MT6701": (0x06, 0x46),
     "MPU6050": (0x68, 0x69),
+    "ADXL345": (0x53, 0x1D),
+    "LSM303-ACCEL": (0x19,),
+    "LSM303-MAG": (0x1E,),
+    "HMC5883L": (0x1E,),
+    "QMC5883L": (0x0D,),
     "BNO055": (0x28, 0x29),
+    "MCP4725": tuple(range(0x60, 0x68)),
 }
 """The usual addresses of each part, from its data sheet. 0x38 to 0x3F are those of the PCF8574A."""
 _MORE = {"PCA9685": range(0x40, 0x78), "AS5600": range(0x08, 0x78)}
@@ -52,6 +63,8 @@ def _listed(addresses: tuple[int, ...]) -> str:
 
 KERNEL_SELECTS = {8: 0, 7: 1}
 """The select lines of /dev/spidev0.0 and /dev/spidev0.1, by GPIO: CE0 and CE1."""
+KERNEL_WIRES = {"sck": 11, "si": 10, "so": 9}
+"""The lines of the Pi's own SPI, which its chips share."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +81,9 @@ class SpiUse:
     """Clock and data: `sck`, `si`, and `so` where a chip answers."""
     kernel: bool
     """True: the Pi's own SPI controller, through spidev. False: the program switches the lines bit by bit."""
+    mode: int = 0
+    speed_hz: int = 100_000
+    """Of the clock, on the Pi's own controller: slow, for long wires, unless the chips say otherwise."""
 
     @property
     def lines(self) -> list[tuple[int, str]]:
@@ -83,3 +99,16 @@ def spi_lines(uses: list[SpiUse]) -> list[tuple[int, str]]:
         lines += [(pin, key) for pin, key in use.lines if pin not in shared]
         shared.update(use.wires.values() if use.kernel else ())
     return lines
+
+
+def pins_twice(used: Iterable[tuple[int, str]]) -> list[str]:
+    """`used`: each GPIO, with the key that names it."""
+    return [f"GPIO {pin} is used by {' and '.join(keys)}" for pin, keys in twice(used).items()]
+
+
+def chips_twice(used: Iterable[I2CChip]) -> list[str]:
+    at = twice(((chip.bus, chip.address), chip.key) for chip in used)
+    return [
+        f"{' and '.join(sorted(keys, reverse=True))} are both 0x{address:02x} on bus {bus}"
+        for (bus, address), keys in at.items()
+    ]

@@ -44,13 +44,12 @@ class Relays(Table):
     @property
     def contacts(self) -> dict[str, int]:
         """The GPIO of each line that closes a contact, by its key."""
-        keys = ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master")
-        return {key: pin for key in keys if (pin := getattr(self, key)) is not None}
+        return self.given("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master")
 
     @property
     def outputs(self) -> dict[str, int]:
         """The contacts' lines, and the heartbeat's."""
-        return self.contacts | ({} if self.heartbeat is None else {"heartbeat": self.heartbeat})
+        return self.contacts | self.given("heartbeat")
 
 
 class Lcd(Table):
@@ -73,9 +72,7 @@ class Lcd(Table):
     @property
     def lines(self) -> dict[str, int]:
         """The GPIO of each of the six pins, for a display on GPIO lines; empty for the other kinds."""
-        if self.kind != "gpio":
-            return {}
-        return {"rs": self.rs, "e": self.e, "d4": self.d4, "d5": self.d5, "d6": self.d6, "d7": self.d7}
+        return self.given("rs", "e", "d4", "d5", "d6", "d7") if self.kind == "gpio" else {}
 
     def chips(self) -> list[I2CChip]:
         """The chip of the backpack; empty for a display without one."""

@@ -7,16 +7,17 @@ the loader checks the text that comes of it.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import Any
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
 from rotator.config.migrations import brought_up
-from rotator.config.statements import Place, places, statements
+from rotator.config.statements import Place, Statement, places, statements
 from rotator.exchange.foreign import toml_of
 
 MOST_CHANGES, DEEPEST = 500, 6
@@ -41,7 +42,7 @@ class Change:
         if not 0 < len(self.place) <= DEEPEST or not isinstance(self.place[0], str):
             raise NoChangeError("a place begins with the name of a table, and has six parts at most")
         for part in self.place:
-            if isinstance(part, bool) or not ((isinstance(part, int) and part >= 0) or _is_key(part)):
+            if not (_KEY.fullmatch(part) if isinstance(part, str) else type(part) is int and part >= 0):
                 raise NoChangeError(f"{str(part)[:40]!a} is no key: a key has small letters, figures and _")
         if self.value is not None and not _is_plain(self.value, DEEPEST):
             raise NoChangeError(f"{self.place[-1]}: a value is a text, a number, true or false, or a list of these")
@@ -53,18 +54,16 @@ def edited(text: str, changes: Sequence[Change]) -> str:
         raise NoChangeError(f"{len(changes)} changes at a time: {MOST_CHANGES} at most")
     text = brought_up(text)
     for change in changes:
-        wanted = _applied(toml_of(text), change)
-        if _holds(text, wanted):
+        wanted = toml_of(text)
+        _apply(change, change.value, wanted)
+        if toml_of(text) == wanted:
             continue
-        text = next((new for new in _ways(text, change) if _holds(new, wanted)), "")
-        if not _holds(text, wanted):
+        new = next((way for way in _ways(text, change) if _says(way, wanted)), None)
+        if new is None:
             where = ".".join(str(part) for part in change.place)
             raise NoChangeError(f"{where}: the file writes this in a way that only an editor can change")
+        text = new
     return text
-
-
-def _is_key(part: object) -> bool:
-    return isinstance(part, str) and _KEY.fullmatch(part) is not None
 
 
 def _is_plain(value: object, depth: int) -> bool:
@@ -74,76 +73,56 @@ def _is_plain(value: object, depth: int) -> bool:
         case list() if depth:
             return all(_is_plain(each, depth - 1) for each in value)
         case dict() if depth:
-            return all(_is_key(key) and _is_plain(each, depth - 1) for key, each in value.items())
+            return all(_KEY.fullmatch(key) and _is_plain(each, depth - 1) for key, each in value.items())
         case _:
             return False
 
 
-def _holds(text: str, wanted: Mapping[str, Any]) -> bool:
-    """Whether this text says just that."""
-    try:
-        return bool(toml_of(text) == wanted)
-    except ValueError:
-        return False
+def _says(text: str, wanted: dict[str, Any]) -> bool:
+    with suppress(ValueError):
+        return toml_of(text) == wanted
+    return False
 
 
-def _applied(values: dict[str, Any], change: Change) -> dict[str, Any]:
-    """What the file is to say after the change. Raises NoChangeError where there is no such table."""
-    at: Any = values
+def _apply(change: Change, value: object, values: Any) -> None:
+    """Make the change in the keys of a file: plain ones, or those of tomlkit. Raises NoChangeError where there is no
+    such table."""
+    at = values
     *way, last = change.place
     for part, following in zip(way, change.place[1:], strict=True):
         if isinstance(at, dict) and part not in at:
             at[part] = [] if isinstance(following, int) else {}
-        at = _inside(at, part)
+        try:
+            at = at[part]
+        except (IndexError, TypeError):
+            at = None
+        if not isinstance(at, (dict, list)):
+            raise NoChangeError(f"{part!r} is no table of the file")
     match at, last:
-        case dict(), str() if change.value is None:
+        case dict(), str() if value is None:
             at.pop(last, None)
         case dict(), str():
-            at[last] = change.value
-        case list(), int() if change.value is None and last < len(at):
+            at[last] = value
+        case list(), int() if value is None and last < len(at):
             del at[last]
             if not at and len(change.place) == 2:
-                del values[str(way[0])]
-        case list(), int() if isinstance(change.value, dict) and last == len(at):
-            at.append(change.value)
+                del values[change.place[0]]
+        case list(), int() if isinstance(value, dict) and last == len(at):
+            at.append(value)
         case _:
             raise NoChangeError(f"{change.place[0]}: there is no {last!r} to change")
-    return values
 
 
-def _inside(at: Any, part: int | str) -> Any:
-    try:
-        inner = at[part]
-    except (KeyError, IndexError, TypeError):
-        inner = None
-    if not isinstance(inner, (dict, list)):
-        raise NoChangeError(f"{part!r} is no table of the file")
-    return inner
-
-
-def _ways(text: str, change: Change) -> list[str]:
+def _ways(text: str, change: Change) -> Iterator[str]:
     """The text changed in each way that may fit. A key that is there keeps its line and its remark."""
-    ways = []
-    present = change.place in places(text)
     if isinstance(change.place[-1], int):
-        ways.append(_without_table(text, change.place) if change.value is None else _with_table(text, change))
-    elif change.value is not None and not present:
-        ways.append(_with_key(text, change))
-    with suppress(TOMLKitError, KeyError, IndexError, TypeError, ValueError):
-        ways.append(_by_library(text, change))
-    return ways
-
-
-def _by_library(text: str, change: Change) -> str:
-    document = tomlkit.parse(text)
-    at: Any = document
-    for part in change.place[:-1]:
-        at = at[part]
-    if change.value is None:
-        del at[change.place[-1]]
-    else:
-        at[change.place[-1]] = _item(change.value)
-    return tomlkit.dumps(document)
+        yield _without_table(text, change.place) if change.value is None else _with_table(text, change)
+    elif change.value is not None and change.place not in places(text):
+        yield _with_key(text, change)
+    with suppress(TOMLKitError, NoChangeError, KeyError, TypeError):
+        document = tomlkit.parse(text)
+        _apply(change, None if change.value is None else _item(change.value), document)
+        yield tomlkit.dumps(document)
 
 
 def _item(value: object) -> Any:
@@ -154,25 +133,24 @@ def _item(value: object) -> Any:
     return tomlkit.item(value)
 
 
-def _line(key: str, value: object) -> str:
+def _line(key: object, value: object) -> str:
     return f"{key} = {_item(value).as_string()}"
 
 
 def _with_key(text: str, change: Change) -> str:
     """A new key: behind the last key of its table. A table that is not there yet comes at the end."""
     *table, key = change.place
-    row = _line(str(key), change.value)
-    rows = text.split("\n")
-    last = _last_line(text, tuple(table))
-    if last is not None:
-        return "\n".join([*rows[:last], row, *rows[last:]])
-    heading = ".".join(str(part) for part in table if isinstance(part, str))
-    if within := next((tuple(table[:to]) for to in range(len(table) - 1, 0, -1) if isinstance(table[to - 1], int)), ()):
-        # A table inside one of a list, such as a link's, must follow it.
-        last = _last_line(text, within)
-        assert last is not None, "the table of the list is in the file"
-        return "\n".join([*rows[:last], "", f"[{heading}]", row, *rows[last:]])
-    return f"{text.rstrip()}\n\n[{heading}]\n{row}\n".lstrip("\n")
+    row = _line(key, change.value)
+    heading = f"[{'.'.join(part for part in table if isinstance(part, str))}]"
+    # A table inside one of a list, such as a link's, must follow it.
+    of_a_list = next((tuple(table[:to]) for to in range(len(table), 0, -1) if isinstance(table[to - 1], int)), ())
+    found = statements(text)
+    for place, added in ((tuple(table), [row]), (of_a_list, ["", heading, row])):
+        if own := _from_heading(found, place):
+            last = [own[0], *takewhile(lambda each: not each.heads, own[1:])][-1].last
+            rows = text.split("\n")
+            return "\n".join([*rows[:last], *added, *rows[last:]])
+    return f"{text.rstrip()}\n\n{heading}\n{row}\n".lstrip("\n")
 
 
 def _with_table(text: str, change: Change) -> str:
@@ -185,15 +163,11 @@ def _with_table(text: str, change: Change) -> str:
 
 def _without_table(text: str, place: Place) -> str:
     """Without one table of a list, and without the remark right above its heading."""
-    lines = places(text)
-    first = lines.get(place, (0,))[0]
-    found = statements(text)
-    heading = next((each for each in found if each.line == first and each.brackets == 2), None)
-    if heading is None:
+    found = _from_heading(statements(text), place)
+    if not found:
         return text
-    after = [each for each in found if each.line > first and each.brackets and each.keys[: len(heading.keys)] != ()]
-    following = next((each.line for each in after if _leaves(each.keys, each.brackets, heading.keys)), None)
-    last = max(each.last for each in found if each.line >= first and (following is None or each.line < following))
+    own = list(takewhile(lambda each: each.place[: len(place)] == place, found))
+    first, last = own[0].line, own[-1].last
     rows = text.split("\n")
     while first > 1 and rows[first - 2].lstrip().startswith("#"):
         first -= 1
@@ -202,23 +176,6 @@ def _without_table(text: str, place: Place) -> str:
     return "\n".join([*rows[: first - 1], *rows[last:]])
 
 
-def _leaves(keys: tuple[str, ...], brackets: int, table: tuple[str, ...]) -> bool:
-    """Whether a heading begins something else than a part of this table."""
-    return keys[: len(table)] != table or (brackets == 2 and keys == table)
-
-
-def _last_line(text: str, table: Place) -> int | None:
-    """The line of the last key of a table, or of its heading; None: it has no heading."""
-    lines = places(text)
-    found = statements(text)
-    at = lines.get(table, ())
-    begin = next((each for each in found if each.line in at and each.brackets), None)
-    if begin is None:
-        return None
-    last = begin.line
-    for each in found:
-        if each.line > begin.line:
-            if each.brackets:
-                break
-            last = each.last
-    return last
+def _from_heading(found: list[Statement], table: Place) -> list[Statement]:
+    """The statements from the heading of this table on; none: it has no heading."""
+    return next((found[at:] for at, each in enumerate(found) if each.heads and each.place == table), [])

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from hw.ports import Axis
 from rotator.config.axes import AxisTable
@@ -27,20 +27,17 @@ class ForbiddenTable(Table):
     margin_deg: float = Field(2.0, ge=0, le=45)
     """Kept free on all sides: for the gears' play, the sensor's error, wind."""
 
-    @model_validator(mode="after")
-    def _both_spans_rise(self) -> ForbiddenTable:
-        for key, (low_deg, high_deg) in self._spans().items():
-            if low_deg >= high_deg:
-                raise ValueError(
-                    f"{key} = [{low_deg:g}, {high_deg:g}] must rise; a sector across the end of the scale is two tables"
-                )
-        return self
+    def faults(self) -> list[str]:
+        return [
+            f"{axis.value}_deg = [{low_deg:g}, {high_deg:g}] must rise; "
+            "a sector across the end of the scale is two tables"
+            for axis in Axis
+            for low_deg, high_deg in [self.span(axis)]
+            if low_deg >= high_deg
+        ]
 
     def span(self, axis: Axis) -> Point:
         return self.azimuth_deg if axis is Axis.AZIMUTH else self.elevation_deg
-
-    def _spans(self) -> dict[str, Point]:
-        return {f"{axis.value}_deg": self.span(axis) for axis in Axis}
 
     def keeps_away(self, axis: Axis, angle_deg: float) -> bool:
         """Whether the sector with its margin holds this angle of the axis."""
@@ -82,7 +79,7 @@ def seen_again(tables: Sequence[ForbiddenTable], axes: Mapping[Axis, AxisTable])
         (west_deg, east_deg), (low_deg, high_deg) = table.azimuth_deg, table.elevation_deg
         again = [
             (f"{table.name} stands on the other turn of the azimuth too", turn_deg, low_deg, high_deg)
-            for turn_deg in (-360.0, 360.0)
+            for turn_deg in (() if azimuth.endless else (-360.0, 360.0))
         ]
         again += [
             (f"over the top the antenna meets {table.name} too", turn_deg, 180.0 - high_deg, 180.0 - low_deg)

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import ipaddress
 import re
-from typing import Final, Literal
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Final, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import AfterValidator, Field
 
-from rotator.config.table import FilePath, Table, a_path
+from rotator.config.table import FilePath, Table, a_path, twice
 from rotator.exchange.sources import MQTT, PERSONS
 
 ProtocolName = Literal[
@@ -33,7 +34,7 @@ _PLACES: dict[str, tuple[ProtocolName, ...]] = {
     "file": ("wsjtx",),
 }
 """Keys of a place that serve these protocols only. These protocols have no other place."""
-NEEDS_STATION: tuple[ProtocolName, ...] = ("lx200", "stellarium")
+_NEEDS_STATION: tuple[ProtocolName, ...] = ("lx200", "stellarium")
 """These protocols name places among the stars."""
 _TCP_ONLY: tuple[ProtocolName, ...] = ("stellarium", "pstrotatoraz")
 _MANY_PROTOCOLS_PLACES = ("pty", "serial", "tcp")
@@ -41,30 +42,93 @@ _ONE_AXIS: tuple[ProtocolName, ...] = ("dcu1", "n1mm", "pstrotatoraz", "rot1prog
 _ONLY_ORDERS: tuple[ProtocolName, ...] = (FOLLOW, "macdoppler", "wsjtx")
 
 
+def address(text: str) -> tuple[str, int]:
+    """`host:port` taken apart; an IPv6 host stands in brackets. Raises ValueError."""
+    parts = re.fullmatch(r"(?:\[([0-9a-fA-F:.%\w]+)\]|([^:\[\]\s]+)):(\d{1,5})", text)
+    if not parts or not 0 < int(parts[3]) <= LAST_PORT:
+        port = text if text.isascii() and text.isdecimal() and 0 < int(text) <= LAST_PORT else "4533"
+        raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:{port}"')
+    host = parts[1] or parts[2]
+    numbers = host.split(".")
+    if len(numbers) == 4 and all(each.isdecimal() for each in numbers) and any(int(each) > 255 for each in numbers):
+        raise ValueError(f'"{text}": no number of an address is above 255: write one such as "192.168.1.77:{parts[3]}"')
+    return host, int(parts[3])
+
+
+def _networks(texts: list[str]) -> list[str]:
+    for text in texts:
+        try:
+            ipaddress.ip_network(text, strict=False)
+        except ValueError:
+            raise ValueError(f'"{text}" must be an address or a network, such as "192.168.1.0/24"') from None
+    return texts
+
+
+def _an_address(text: str) -> str:
+    address(text)
+    return text
+
+
+def _a_numeric_address(text: str) -> str:
+    host, _ = address(text)
+    try:
+        ipaddress.IPv4Address(host)
+    except ValueError:
+        raise ValueError(f'"{text}" must be an IPv4 address and a port, such as "192.168.1.20:13010"') from None
+    return text
+
+
+def _a_port(text: str) -> str:
+    if re.fullmatch(r"(?i)com\d+:?", text):
+        raise ValueError(
+            f'"{text}" is a port of a Windows PC, and belongs in the program there; on this machine ports are '
+            "called /dev/ttyGS0 (the USB cable to the PC), /dev/ttyUSB0 or /dev/ttyACM0 (an adapter): "
+            "ls /dev/serial/by-id"
+        )
+    return text
+
+
+def _a_name(name: str) -> str:
+    if name in PERSONS:
+        raise ValueError(f"{name} is the name of what a person uses at the box: {', '.join(PERSONS)}; take another")
+    if name == MQTT:
+        raise ValueError(f"{name} is the name of [mqtt]; take another")
+    if not name.isprintable() or set(name) & set("<>#"):
+        raise ValueError(f"{name!r} must be printable characters, and none of < > #")
+    return name
+
+
+Address = Annotated[str, AfterValidator(_an_address)]
+"""`host:port`."""
+Networks = Annotated[list[str], AfterValidator(_networks)]
+Port = Annotated[str, Field(min_length=1), AfterValidator(a_path), AfterValidator(_a_port)]
+PortFile = Annotated[FilePath, AfterValidator(_a_port)]
+
+
 class Link(Table):
     protocol: ProtocolName
     """The protocol of the program at the other end."""
-    name: str | None = Field(None, min_length=1, max_length=24)
+    name: Annotated[str, Field(min_length=1, max_length=24), AfterValidator(_a_name)] | None = None
     """Its name in the log and on the display; left out, its protocol."""
-    pty: FilePath | None = None
+    pty: PortFile | None = None
     """The path of a symlink to a pseudo-terminal, for programs on the same machine."""
-    serial: str | None = Field(None, min_length=1)
+    serial: Port | None = None
     """A serial port, or a URL of pyserial; a missing one is waited for."""
-    tcp: str | None = None
+    tcp: Address | None = None
     """Where the box listens, "host:port"."""
-    connect: str | None = None
+    connect: Address | None = None
     """rotctld-follow: the rotctld whose position the box follows, "host:port"."""
     poll_s: float = Field(0.1, ge=0.02, le=10)
     """rotctld-follow: the time between questions."""
-    udp: str | None = None
+    udp: Address | None = None
     """pstrotator, n1mm, macdoppler: where the box listens, "host:port"; 0.0.0.0 for broadcasts too."""
-    file: FilePath | None = None
+    file: PortFile | None = None
     """wsjtx: the path of its azel.dat; a missing file is waited for."""
     body: Literal["Moon", "Sun", "Source"] = "Moon"
     """wsjtx: the body to follow."""
     rotor_name: str | None = Field(None, min_length=1, max_length=40)
     """n1mm: obey only orders for this rotor, capitals as in N1MM; left out, all."""
-    status_to: str | None = None
+    status_to: Annotated[str, AfterValidator(_a_numeric_address)] | None = None
     """n1mm: the PC that shows the angle, "address:13010"; 255.255.255.255 for all PCs. Needs rotor_name."""
     baud: int | None = Field(None, ge=50, le=4_000_000)
     """Serial ports only; always 8N1. Left out, 9600; rot1prog 1200, rot2prog 600, dcu1 4800."""
@@ -88,116 +152,44 @@ class Link(Table):
     """Rot2Prog and MD-01: the resolution of orders. Left out, rot2prog 2, md01 10."""
     read_only: bool = False
     """Answer questions, and refuse all orders, a stop too."""
-    allow: list[str] | None = None
+    allow: Networks | None = None
     """Network links: addresses and networks that may connect; left out, all may."""
     most_clients: int = Field(128, ge=1, le=1000)
     """TCP: the most connections at a time."""
     most_per_s: int = Field(100, ge=1, le=10_000)
     """The most orders a second of a connection; beyond, only the newest acts."""
 
-    @model_validator(mode="after")
-    def _one_place(self) -> Link:
+    def faults(self) -> Iterator[str]:
+        yield from self._place_faults()
+        if self.protocol == "pstrotator" and self.udp and address(self.udp)[1] == LAST_PORT:
+            yield f"pstrotator answers one port higher: {LAST_PORT} leaves none"
+        if self.status_to and (self.protocol != "n1mm" or self.rotor_name is None):
+            yield "status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name"
+        elif self.status_to and self.udp and is_this_machine(self.udp) and not is_this_machine(self.status_to):
+            yield f'udp = "{self.udp}" reaches this machine only, and status_to is not on it: use 0.0.0.0'
+        if self.report_moves and self.protocol not in ("gs232a", "gs232b"):
+            yield f"report_moves is for gs232a and gs232b, not for {self.protocol}"
+        if self.axis and self.protocol not in _ONE_AXIS:
+            yield f"axis is for {', '.join(_ONE_AXIS)}; {self.protocol} names its axes itself"
+        if self.read_only and self.protocol in _ONLY_ORDERS:
+            yield f"{self.protocol} does nothing but give orders: leave out read_only"
+        if self.allow is not None and (self.pty or self.serial or self.connect or self.file):
+            yield "allow is for links that others connect to over a network: leave it out"
+
+    def _place_faults(self) -> Iterator[str]:
+        """Each link has exactly one place, and some protocols have only one kind of place."""
         own = next((place for place, protocols in _PLACES.items() if self.protocol in protocols), None)
         places = [place for place in (*_MANY_PROTOCOLS_PLACES, *_PLACES) if getattr(self, place) is not None]
-        for place in places:
-            if place != own and place in _PLACES:
-                right = own or "exactly one of pty, serial, tcp"
-                raise ValueError(f"{place} is for {', '.join(_PLACES[place])} only; {self.protocol} must have {right}")
-        if own and places != [own]:
-            raise ValueError(f"{self.protocol} must have {own}, and none of pty, serial, tcp")
-        if self.protocol in _TCP_ONLY and places != ["tcp"]:
-            raise ValueError(f"{self.protocol} must have tcp, and no other place")
-        if len(places) != 1:
-            raise ValueError("must have exactly one of pty, serial, tcp")
-        return self
-
-    @model_validator(mode="after")
-    def _answers_have_a_port(self) -> Link:
-        if self.protocol == "pstrotator" and self.udp and address(self.udp)[1] == LAST_PORT:
-            raise ValueError(f"pstrotator answers one port higher: {LAST_PORT} leaves none")
-        return self
-
-    @field_validator("name")
-    @classmethod
-    def _no_link_is_a_person(cls, name: str | None) -> str | None:
-        if name in PERSONS:
-            raise ValueError(f"{name} is the name of what a person uses at the box: {', '.join(PERSONS)}; take another")
-        if name == MQTT:
-            raise ValueError(f"{name} is the name of [mqtt]; take another")
-        return name
-
-    @model_validator(mode="after")
-    def _status_has_a_name_and_a_way(self) -> Link:
-        if self.status_to is None:
-            return self
-        if self.protocol != "n1mm" or self.rotor_name is None:
-            raise ValueError("status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name")
-        if self.udp and is_this_machine(address(self.udp)[0]) and not is_this_machine(address(self.status_to)[0]):
-            raise ValueError(f'udp = "{self.udp}" reaches this machine only, and status_to is not on it: use 0.0.0.0')
-        return self
-
-    @model_validator(mode="after")
-    def _moves_are_reported_on_gs232(self) -> Link:
-        if self.report_moves and self.protocol not in ("gs232a", "gs232b"):
-            raise ValueError(f"report_moves is for gs232a and gs232b, not for {self.protocol}")
-        return self
-
-    @model_validator(mode="after")
-    def _one_bearing_is_one_axis(self) -> Link:
-        if self.axis and self.protocol not in _ONE_AXIS:
-            raise ValueError(f"axis is for {', '.join(_ONE_AXIS)}; {self.protocol} names its axes itself")
-        return self
-
-    @model_validator(mode="after")
-    def _rights_fit(self) -> Link:
-        if self.read_only and self.protocol in _ONLY_ORDERS:
-            raise ValueError(f"{self.protocol} does nothing but give orders: leave out read_only")
-        if self.allow is not None and (self.pty or self.serial or self.connect or self.file):
-            raise ValueError("allow is for links that others connect to over a network: leave it out")
-        return self
-
-    @field_validator("name")
-    @classmethod
-    def _one_readable_word_or_more(cls, text: str | None) -> str | None:
-        if text is not None and (not text.isprintable() or set(text) & set("<>#")):
-            raise ValueError(f"{text!r} must be printable characters, and none of < > #")
-        return text
-
-    @field_validator("serial", "pty", "file")
-    @classmethod
-    def _a_path_of_this_machine(cls, text: str | None) -> str | None:
-        if text is not None:
-            a_path(text)
-        if text is not None and re.fullmatch(r"(?i)com\d+:?", text):
-            raise ValueError(
-                f'"{text}" is a port of a Windows PC, and belongs in the program there; on this machine ports are '
-                "called /dev/ttyGS0 (the USB cable to the PC), /dev/ttyUSB0 or /dev/ttyACM0 (an adapter): "
-                "ls /dev/serial/by-id"
-            )
-        return text
-
-    @field_validator("allow")
-    @classmethod
-    def _networks(cls, texts: list[str] | None) -> list[str] | None:
-        return networks(texts)
-
-    @field_validator("tcp", "connect", "udp")
-    @classmethod
-    def _an_address(cls, text: str | None) -> str | None:
-        if text is not None:
-            address(text)
-        return text
-
-    @field_validator("status_to")
-    @classmethod
-    def _a_numeric_address(cls, text: str | None) -> str | None:
-        if text is not None:
-            host, _ = address(text)
-            try:
-                ipaddress.IPv4Address(host)
-            except ValueError:
-                raise ValueError(f'"{text}" must be an IPv4 address and a port, such as "192.168.1.20:13010"') from None
-        return text
+        strange = next((place for place in places if place != own and place in _PLACES), None)
+        if strange:
+            right = own or "exactly one of pty, serial, tcp"
+            yield f"{strange} is for {', '.join(_PLACES[strange])} only; {self.protocol} must have {right}"
+        elif own and places != [own]:
+            yield f"{self.protocol} must have {own}, and none of pty, serial, tcp"
+        elif self.protocol in _TCP_ONLY and places != ["tcp"]:
+            yield f"{self.protocol} must have tcp, and no other place"
+        elif len(places) != 1:
+            yield "must have exactly one of pty, serial, tcp"
 
     @property
     def serial_baud(self) -> int:
@@ -218,41 +210,41 @@ class Link(Table):
         return self.pty or self.serial or self.tcp or self.connect or self.udp or self.file or ""
 
 
-def address(text: str) -> tuple[str, int]:
-    """`host:port` taken apart; an IPv6 host stands in brackets. Raises ValueError."""
-    parts = re.fullmatch(r"(?:\[([0-9a-fA-F:.%\w]+)\]|([^:\[\]\s]+)):(\d{1,5})", text)
-    if not parts or not 0 < int(parts[3]) <= LAST_PORT:
-        port = text if text.isascii() and text.isdecimal() and 0 < int(text) <= LAST_PORT else "4533"
-        raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:{port}"')
-    host = parts[1] or parts[2]
-    numbers = host.split(".")
-    if len(numbers) == 4 and all(each.isdecimal() for each in numbers) and any(int(each) > 255 for each in numbers):
-        raise ValueError(f'"{text}": no number of an address is above 255: write one such as "192.168.1.77:{parts[3]}"')
-    return host, int(parts[3])
-
-
-def networks(texts: list[str] | None) -> list[str] | None:
-    """The same. Raises ValueError where one is no address and no network."""
-    for text in texts or ():
-        try:
-            ipaddress.ip_network(text, strict=False)
-        except ValueError:
-            raise ValueError(f'"{text}" must be an address or a network, such as "192.168.1.0/24"') from None
-    return texts
-
-
-_THIS_MACHINE = frozenset(("localhost", "127.0.0.1", "::1", "0.0.0.0", "::"))
-
-
-def is_same_place(server: str, client: str) -> bool:
+def _is_same_place(server: str, client: str) -> bool:
     """Whether a connection to `client` may reach the server at `server` on this machine; both "host:port"."""
     (listens, server_port), (goes_to, client_port) = address(server), address(client)
-    if server_port != client_port:
-        return False
-    here = goes_to in _THIS_MACHINE or goes_to.startswith("127.")
-    return listens == goes_to or (here and (listens in _THIS_MACHINE or listens.startswith("127.")))
+    here = all(is_this_machine(each) or address(each)[0] in ("0.0.0.0", "::") for each in (server, client))
+    return server_port == client_port and (here or listens == goes_to)
 
 
-def is_this_machine(host: str) -> bool:
-    """Whether only programs on this machine reach the address."""
+def is_this_machine(place: str) -> bool:
+    """Whether only programs on this machine reach it; "host:port"."""
+    host, _ = address(place)
     return host in ("localhost", "::1") or host.startswith("127.")
+
+
+def places_twice(links: Sequence[Link]) -> list[str]:
+    at = twice(((link.where, link.connect, link.udp), f"link[{number}]") for number, link in enumerate(links))
+    return [
+        f"{len(keys)} links use {where}: {' and '.join(keys)}: give one of them another place"
+        for (where, *_), keys in at.items()
+    ]
+
+
+def follows_itself(links: Sequence[Link]) -> list[str]:
+    return [
+        f'link[{number}].connect = "{link.connect}" is the box itself (link[{other}].tcp = "{server.tcp}"): '
+        "give one of the two another port"
+        for number, link in enumerate(links)
+        for other, server in enumerate(links)
+        if link.connect and server.tcp and _is_same_place(server.tcp, link.connect)
+    ]
+
+
+def needs_station(links: Sequence[Link]) -> list[str]:
+    """The links that need the station, where its place is not known."""
+    return [
+        f"link[{number}]: {link.protocol} needs [station], with latitude_deg and longitude_deg, or locator"
+        for number, link in enumerate(links)
+        if link.protocol in _NEEDS_STATION
+    ]

@@ -32,8 +32,6 @@ def load(path: Path | None) -> Config:
         text = toml_text.read(path)
     except OSError as fault:
         raise ConfigError(str(path), [Mistake(_unreadable(path, fault))]) from fault
-    except toml_text.NoTextError as none:
-        raise ConfigError(str(path), [none.mistake]) from none
     if is_empty(text):
         raise ConfigError(str(path), [Mistake(f"is empty: {_MAKES.format(path)}")])
     return parse(text, str(path))

@@ -1,42 +1,48 @@
 """The whole configuration: all its tables, the small ones in this file, and the rules across tables.
 
-The bigger tables have files beside this one, the kinds of rotor have theirs in `kinds/`; `conflicts` knows what two
-parts must not share. Defaults and bounds are in these tables, except what differs by kind of rotor: `usual` of each
-kind. Knows no file on a disk and no hardware.
+The bigger tables have files beside this one, the kinds of rotor have theirs in `kinds/`. Defaults and bounds are in
+these tables, except what differs by kind of rotor: `usual` of each kind. Knows no file on a disk and no hardware.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, TypeVar
 
 from pydantic import Field, model_validator
 
 from hw.ports import AngleSource, Axis
 from rotator.config.adc import Adc
-from rotator.config.angle import Angle
-from rotator.config.axes import AxisTable, Azimuth, Elevation
-from rotator.config.chips import I2CChip, SpiUse, spi_lines
-from rotator.config.conflicts import chips_twice, follows_itself, needs_station, pins_twice, places_twice
+from rotator.config.axes import AxisTable, Azimuth, BrakeTable, Elevation, SpeedTable
+from rotator.config.chips import I2CChip, SpiUse, chips_twice, pins_twice, spi_lines
 from rotator.config.devices import Lcd, Relays
+from rotator.config.endless import endless_faults, in_turns
+from rotator.config.felt import felt_faults
 from rotator.config.forbidden import Place, forbidden_faults
+from rotator.config.kinds import Rotor, with_usual
+from rotator.config.kinds.controller import Controller, ControllerKind
 from rotator.config.kinds.digipot import Digipot, DigipotKind
-from rotator.config.kinds.kind import EndStop, Kind
+from rotator.config.kinds.h_bridge import Bridge, HBridgeKind
+from rotator.config.kinds.kind import EndStop, Kind, OffLine
 from rotator.config.kinds.moteus import Moteus, MoteusKind
 from rotator.config.kinds.relay_pot import RelayPot
 from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
+from rotator.config.kinds.relay_timed import RelayTimed, Timed
 from rotator.config.kinds.servo import Servo, ServoKind
-from rotator.config.links import Link
+from rotator.config.kinds.stepper import Stepper, StepperKind
+from rotator.config.links import Link, follows_itself, needs_station, places_twice
 from rotator.config.mount import MountTable
 from rotator.config.mqtt import MqttTable
 from rotator.config.page import PageTable
 from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.places import STATE
-from rotator.config.rotors import Rotor, with_usual
-from rotator.config.sensors import CompassTable
+from rotator.config.sensors import Angle, CompassTable
 from rotator.config.sim import Sim
 from rotator.config.sky import SkyTable
 from rotator.config.station import StationTable
 from rotator.config.table import FilePath, Table
+
+T = TypeVar("T")
 
 SWITCH_ROOM_DEG = 2.0
 """How far above the place where homing ends at a limit switch the range may begin."""
@@ -59,49 +65,57 @@ class Control(Table):
 
 
 class Config(Table):
-    rotor: Rotor = Rotor()
+    rotor: Rotor = Rotor.model_construct()
     """The kind of rotor, real or simulated."""
-    azimuth: Azimuth = Azimuth()
+    azimuth: Azimuth = Azimuth.model_construct()
     """The azimuth axis, in degrees on the rotor's own scale."""
-    elevation: Elevation = Elevation()
+    elevation: Elevation = Elevation.model_construct()
     """The elevation axis."""
-    station: StationTable = StationTable()
+    station: StationTable = StationTable.model_construct()
     """Where the antenna stands: for the sky, telescope programs and PstRotator's `LLH`."""
-    sky: SkyTable = SkyTable()
+    sky: SkyTable = SkyTable.model_construct()
     """What is known of the sky."""
-    mount: MountTable = MountTable()
+    mount: MountTable = MountTable.model_construct()
     """How the two axes carry the antenna."""
-    control: Control = Control()
+    control: Control = Control.model_construct()
     """The control loop."""
-    state: StateTable = StateTable()
+    state: StateTable = StateTable.model_construct()
     """What the box remembers from one run to the next."""
-    monitor: MonitorTable = MonitorTable()
+    monitor: MonitorTable = MonitorTable.model_construct()
     """The monitor of the bytes on the links."""
-    mqtt: MqttTable = MqttTable()
+    mqtt: MqttTable = MqttTable.model_construct()
     """A broker of messages, for Home Assistant and the like; needs the extra `mqtt`."""
-    page: PageTable = PageTable()
+    page: PageTable = PageTable.model_construct()
     """The page for a browser, and its API. Moving the antenna there needs pairing: `rotator pair`."""
-    pulses: Pulses = Pulses()
+    pulses: Pulses = Pulses.model_construct()
     """Rotor type relay-pulse: contacts that are counted, as on the Alliance U-100."""
-    moteus: Moteus = Moteus()
+    timed: Timed = Timed.model_construct()
+    """Rotor type relay-timed: motors from which nothing comes back."""
+    moteus: Moteus = Moteus.model_construct()
     """Rotor type moteus: two controllers on CAN-FD."""
-    servo: Servo = Servo()
+    servo: Servo = Servo.model_construct()
     """Rotor type servo: two hobby servos on a PCA9685."""
-    digipot: Digipot = Digipot()
+    digipot: Digipot = Digipot.model_construct()
     """Rotor type digipot: an MCP41010 for each control box's knob."""
-    compass: CompassTable = CompassTable()
+    bridge: Bridge = Bridge.model_construct()
+    """Rotor type h-bridge: DC motors behind H-bridges, with encoders. Numbers are GPIO (BCM)."""
+    controller: Controller = Controller.model_construct()
+    """Rotor type controller: a ready-made controller for both axes, or one for each."""
+    stepper: Stepper = Stepper.model_construct()
+    """Rotor type stepper: a TMC5160 or TMC5130 for each motor, on the Pi's own SPI."""
+    compass: CompassTable = CompassTable.model_construct()
     """The compass that finds north."""
-    relays: Relays = Relays()
+    relays: Relays = Relays.model_construct()
     """The motor relays. Numbers are GPIO (BCM), not pins of the header."""
-    adc: Adc = Adc()
+    adc: Adc = Adc.model_construct()
     """The converter that reads the pots."""
-    panel: PanelTable = PanelTable()
+    panel: PanelTable = PanelTable.model_construct()
     """A front panel. A part without a key is not fitted."""
-    limits: LimitsTable = LimitsTable()
+    limits: LimitsTable = LimitsTable.model_construct()
     """Limit switches: normally closed, to ground, so that a broken wire acts as a reached limit."""
-    lcd: Lcd = Lcd()
+    lcd: Lcd = Lcd.model_construct()
     """The 16×2 display."""
-    sim: Sim = Sim()
+    sim: Sim = Sim.model_construct()
     """The simulated rotor. Real hardware ignores it."""
     link: list[Link] = Field(default_factory=list)
     """A link to a program. Each has exactly one place: `pty`, `serial` or `tcp`; stellarium and pstrotatoraz `tcp`;
@@ -112,25 +126,36 @@ class Config(Table):
     def _usual(cls, values: Any) -> Any:
         return with_usual(values) if isinstance(values, dict) else values
 
-    @model_validator(mode="after")
-    def _fits_together(self) -> Config:
-        faults = [fault for chip in self.chips() if (fault := chip.fault())]
-        faults += [*pins_twice(self.pins()), *chips_twice(self.chips())]
-        faults += [*places_twice(self.link), *follows_itself(self.link)]
-        faults += [] if self.station.is_known else needs_station(self.link)
-        faults += self.adc.faults() if self.uses_adc else []
-        faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
-        faults += self._compass_faults()
-        faults += self._switches_in_the_way()
-        faults += self._park_faults()
-        faults += forbidden_faults(self.mount.forbidden, {axis: self.axis(axis) for axis in Axis}, self._stands_at())
-        if self.azimuth.sensor.kind == "mpu6050":
-            faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
+    def faults(self) -> Iterator[str]:
+        axes = {axis: self.axis(axis) for axis in self.fitted}
+        if not axes:
+            yield "neither axis is fitted: one of azimuth.fitted and elevation.fitted must be true"
+            return
+        yield from filter(None, (chip.fault() for chip in self.chips()))
+        yield from (*pins_twice(self.pins()), *chips_twice(self.chips()))
+        yield from (*places_twice(self.link), *follows_itself(self.link))
+        yield from needs_station(self.link) if not self.station.is_known else ()
+        yield from self.adc.faults_in_use() if self.uses_adc else ()
+        yield from (*self.kind.faults(axes), *self._compass_faults(), *self._switches_in_the_way())
+        yield from (*self._park_faults(), *self._sector_faults())
+        switched = self.rotor.switched
+        yield from felt_faults(self.azimuth, self.elevation, self.mount, self.rotor.type, switched=switched)
+        yield from endless_faults(axes, self.kind, self.rotor.type, self.angle, self.limits.switches)
+        for axis, brake in self.brakes.items():
+            if not self.rotor.switched:
+                yield f"{axis.value}.brake is for motors on relays: rotor.type = {self.rotor.type} has no such motor"
+            elif brake.rock and self.counts(axis):
+                yield (
+                    f"{axis.value}.brake.rock is for an angle that is measured: an axis that counts cannot see whether "
+                    "the short run has turned it"
+                )
+        if self.speeds and self.rotor.type != "relay-pot":
+            yield (
+                f"{next(iter(self.speeds)).value}.speed is for motors on relays whose angle is measured: rotor.type = "
+                f"{self.rotor.type} has no such motor"
+            )
         if self.mount.tolerance == "axis" and not self.rotor.switched:
-            faults.append('mount.tolerance = "axis" is for motors on relays: these go to every angle, however near')
-        if faults:
-            raise ValueError("\n".join(faults))
-        return self
+            yield 'mount.tolerance = "axis" is for motors on relays: these go to every angle, however near'
 
     @property
     def keeps_files(self) -> bool:
@@ -142,51 +167,99 @@ class Config(Table):
         """The kind of rotor that the file names, with its tables."""
         match self.rotor.type:
             case "relay-pot":
-                return RelayPot(self.relays)
+                return RelayPot(self.relays, self.brakes, self.speeds)
             case "relay-pulse":
-                return RelayPulse(self.relays, self.pulses)
+                return RelayPulse(self.relays, self.brakes, self.speeds, self.pulses)
+            case "relay-timed":
+                return RelayTimed(self.relays, self.brakes, self.speeds, self.timed)
             case "moteus":
                 return MoteusKind(self.moteus)
             case "servo":
                 return ServoKind(self.servo)
             case "digipot":
                 return DigipotKind(self.digipot)
+            case "h-bridge":
+                return HBridgeKind(self.bridge, self.limits)
+            case "controller":
+                return ControllerKind(self.controller, self.rotor.hardware == "sim")
+            case "stepper":
+                return StepperKind(self.stepper)
+
+    @property
+    def fitted(self) -> tuple[Axis, ...]:
+        """The axes that the rotor has."""
+        return tuple(axis for axis in Axis if self.axis(axis).fitted)
+
+    def of_each(self, make: Callable[[Axis], T]) -> tuple[T | None, T | None]:
+        """What `make` makes for azimuth and for elevation; None for an axis that the rotor does not have."""
+        azimuth, elevation = (make(axis) if axis in self.fitted else None for axis in Axis)
+        return azimuth, elevation
+
+    def is_of_an_axis_not_fitted(self, key: str) -> bool:
+        """Whether this key of the file names a part of an axis that the rotor does not have."""
+        words = {word for part in key.split(".") for word in part.split("_")}
+        return any(axis.value in words for axis in Axis if axis not in self.fitted)
+
+    def off_lines(self) -> list[OffLine]:
+        """The outputs of the axes that it has which must be off while the Pi starts and after the program has died."""
+        return [line for line in self.kind.off_lines() if not self.is_of_an_axis_not_fitted(line.key)]
 
     def axis(self, axis: Axis) -> AxisTable:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
 
+    @property
+    def brakes(self) -> dict[Axis, BrakeTable]:
+        """The brake of each axis that has one."""
+        return {axis: brake for axis in self.fitted if (brake := self.axis(axis).brake).line is not None}
+
+    @property
+    def speeds(self) -> dict[Axis, SpeedTable]:
+        """The speed output of each axis that has one."""
+        return {axis: speed for axis in self.fitted if (speed := self.axis(axis).speed).output != "none"}
+
     def angle(self, axis: Axis) -> Angle:
         """How the angle of this axis is known: by its own sensor table, else as its kind of rotor says."""
-        return self.axis(axis).sensor.angle or self.kind.own
+        angle = self.axis(axis).sensor.angle or self.kind.own
+        return in_turns(angle) if self.endless(axis) else angle
+
+    def endless(self, axis: Axis) -> bool:
+        """Whether the axis turns on and on, without ends."""
+        return self.axis(axis).endless and self.axis(axis).fitted
 
     def has_pot(self, axis: Axis) -> bool:
         """Whether a pot on the converter measures the angle of this axis."""
         return self.angle(axis).pot
 
     def counts(self, axis: Axis) -> bool:
-        """Whether the angle of this axis comes from counted pulses."""
-        return self.angle(axis).source is AngleSource.COUNTED
+        """Whether the angle of this axis is counted from an end stop: by pulses, or by time."""
+        source = self.angle(axis).source
+        return source is AngleSource.COUNTED or (source is AngleSource.MODELLED and self.rotor.switched)
+
+    def speeds_dps(self, axis: Axis) -> tuple[float, float] | None:
+        """The speeds of an axis that is reckoned by time, clockwise or up first; None: it is not."""
+        return self.kind.speeds_dps(axis, self.axis(axis)) if self.counts(axis) else None
 
     def in_degrees(self, axis: Axis) -> bool:
         """Whether the readings of this axis are degrees on the rotor's own scale, and need no calibration."""
         return self.angle(axis).in_degrees
 
     def end_stop(self, axis: Axis) -> EndStop | None:
-        """The end stop at which homing ends; None for an axis that does not count pulses, and has no homing."""
+        """The end stop at which homing ends; None for an axis that does not count, and has no homing."""
         return self.kind.end_stop(axis, self.axis(axis).max_deg) if self.counts(axis) else None
 
     def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
         """The lowest and highest possible limit, on the rotor's own scale; None: the tables set no end."""
-        stop = self.end_stop(axis)
-        return (stop.home_deg, None) if stop else self.kind.reach_deg(axis)
+        stop, reach_deg = self.end_stop(axis), self.kind.reach_deg(axis)
+        return (stop.home_deg, reach_deg[1]) if stop else reach_deg
 
     @property
     def uses_adc(self) -> bool:
-        return any(self.has_pot(axis) for axis in Axis)
+        return any(self.has_pot(axis) for axis in self.fitted)
 
     def spi_uses(self) -> list[SpiUse]:
         """The SPI chips in use, by table."""
-        return self.kind.spi_uses() + (self.adc.spi_uses() if self.uses_adc else [])
+        sensors = [use for axis in self.fitted for use in self.axis(axis).sensor.spi_uses(f"{axis.value}.sensor")]
+        return self.kind.spi_uses() + (self.adc.spi_uses() if self.uses_adc else []) + sensors
 
     def pins(self) -> list[tuple[int, str]]:
         """Every GPIO in use, with the key that names it."""
@@ -194,27 +267,33 @@ class Config(Table):
         used += [(pin, f"panel.{key}") for key, pin in self.panel.switches.items()]
         used += [(pin, f"limits.{key}") for key, pin in self.limits.switches.items()]
         used += [(pin, f"lcd.{key}") for key, pin in self.lcd.lines.items()]
-        return used
+        return [(pin, key) for pin, key in used if not self.is_of_an_axis_not_fitted(key)]
 
     def chips(self) -> list[I2CChip]:
         """Every I2C chip in use."""
         used = self.adc.chips() if self.uses_adc else []
-        used += [chip for axis in Axis for chip in self.axis(axis).sensor.chips(f"{axis.value}.sensor.address")]
+        used += [chip for axis in self.fitted for chip in self.axis(axis).sensor.chips(f"{axis.value}.sensor.address")]
         return used + self.kind.chips() + self.panel.chips() + self.compass.chips() + self.lcd.chips()
 
-    def _compass_faults(self) -> list[str]:
+    def _compass_faults(self) -> Iterator[str]:
         if not self.compass.at_start:
-            return []
-        faults = [] if self.compass.kind != "none" else ['compass.at_start needs a compass: kind = "bno055"']
-        if not self.kind.confirmable:
-            faults.append("compass.at_start is for a rotor that may not know its angle: rotor.type = moteus")
+            return
+        if self.compass.kind == "none":
+            yield 'compass.at_start needs a compass: kind = "bno055"'
+        if self.rotor.type not in ("moteus", "stepper"):
+            yield "compass.at_start is for a rotor that may not know its angle: rotor.type = moteus or stepper"
         if self.mount.north == "true" and self.mount.declination_deg is None:
-            faults.append("compass.at_start needs mount.declination_deg: a compass shows magnetic north")
-        return faults
+            yield "compass.at_start needs mount.declination_deg: a compass shows magnetic north"
 
     def _switches_in_the_way(self) -> list[str]:
-        """Homing ends just below a low limit switch: the range must begin above it."""
-        stops = {axis: stop for axis in Axis if (stop := self.end_stop(axis))}
+        """Homing ends just below a low limit switch: the range must begin above it. An axis that is reckoned by time
+        may meet each switch at any time."""
+        if timed := [key for key in self.limits.switches if self.speeds_dps(Axis(key.split("_")[0]))]:
+            return [
+                f"limits.{timed[0]}: leave it out; by time alone the box would run into it: the rotor's own end "
+                "switches stop the motor there"
+            ]
+        stops = {axis: stop for axis in self.fitted if (stop := self.end_stop(axis))}
         return [
             f"limits.{axis.value}_low opens a little above pulses.{axis.value}.home_deg ({stop.home_deg:g}), where "
             f"homing ends: {axis.value}.min_deg must be {stop.home_deg + SWITCH_ROOM_DEG:g} at least, or home_deg less"
@@ -239,8 +318,12 @@ class Config(Table):
             f"mount.park_{axis.value}_deg = {angle_deg:g} is outside {axis.value}'s range, "
             f"{self.axis(axis).min_deg:g} to {self.axis(axis).max_deg:g}"
             for axis, angle_deg in zip(Axis, self.park_deg, strict=True)
+            if axis in self.fitted
             if not self.axis(axis).min_deg <= angle_deg <= self.axis(axis).max_deg
         ]
+
+    def _sector_faults(self) -> list[str]:
+        return forbidden_faults(self.mount.forbidden, {axis: self.axis(axis) for axis in Axis}, self._stands_at())
 
     def _stands_at(self) -> dict[str, Place]:
         """By key: where the antenna has to be able to stand."""

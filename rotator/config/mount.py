@@ -6,9 +6,10 @@ how it is found.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
 from rotator.config.forbidden import ForbiddenTable
 from rotator.config.table import Point, Table
@@ -68,14 +69,12 @@ class MountTable(Table):
     """Points [azimuth, lowest elevation] of trees and roofs, or of the sea below; azimuths rise from 0 to below 360."""
     forbidden: list[ForbiddenTable] = Field(default_factory=list, max_length=16)
     """Where the antenna would touch something: no path crosses it. 16 at most."""
-    model: MountModelTable = MountModelTable()
+    model: MountModelTable = MountModelTable.model_construct()
     """How the mount really stands, as `rotator calibrate sky` finds it."""
 
-    @model_validator(mode="after")
-    def _magnetic_needs_declination(self) -> MountTable:
+    def faults(self) -> Iterator[str]:
         if self.north == "magnetic" and self.declination_deg is None:
-            raise ValueError('north = "magnetic" needs declination_deg, how far east of true north a compass points')
-        return self
+            yield 'north = "magnetic" needs declination_deg, how far east of true north a compass points'
 
     @field_validator("horizon")
     @classmethod

@@ -5,12 +5,13 @@ A part without a key is not fitted. Knows which parts need each other. Knows no 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from rotator.config.chips import I2CChip
-from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus, Table
+from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus, Table, twice
 
 Output = Annotated[int, Field(ge=0, le=15)]
 
@@ -79,42 +80,38 @@ class PanelTable(Table):
     lamp_switch: Output | None = None
     """Lit when a jog switch counts, and until the mode switch has settled."""
 
-    @model_validator(mode="after")
-    def _fits_together(self) -> PanelTable:
-        faults = []
-        has_mode = self.mode_msb is not None
-        if has_mode is not (self.mode_lsb is not None):
-            faults.append("mode_msb and mode_lsb are the two contacts of one switch: give both or neither")
-        orphans = [key for key in (*KNOBS, "calibrate") if getattr(self, key) is not None and not has_mode]
-        if orphans:
-            faults.append(f"without the mode switch (mode_msb, mode_lsb) {' and '.join(orphans)} would do nothing")
+    def faults(self) -> Iterator[str]:
+        """Pins and addresses that are used twice are found by the model of the whole file."""
+        if self.has_mode_switch is not (self.mode_lsb is not None):
+            yield "mode_msb and mode_lsb are the two contacts of one switch: give both or neither"
+        orphans = self.given(*KNOBS, "calibrate")
+        if orphans and not self.has_mode_switch:
+            yield f"without the mode switch (mode_msb, mode_lsb) {' and '.join(orphans)} would do nothing"
         if self.reference is not None and not self.inputs:
-            faults.append("reference: neither a knob nor jog is fitted")
-        # Pins and addresses that are used twice are found by the model of the whole file.
-        faults += [*self._twice("input", INPUTS), *self._twice("output", (*METERS, *LAMPS))]
-        if faults:
-            raise ValueError("; ".join(faults))
-        return self
+            yield "reference: neither a knob nor jog is fitted"
+        for kind, keys in (("input", INPUTS), ("output", (*METERS, *LAMPS))):
+            for place, users in twice((place, key) for key, place in self.given(*keys).items()).items():
+                yield f"{kind} {place} is used by {' and '.join(users)}"
 
     @property
     def inputs(self) -> dict[str, int]:
         """The converter's input of each fitted knob and of the jog switches, by key."""
-        return self._fitted((*KNOBS, "jog"))
+        return self.given(*KNOBS, "jog")
 
     @property
     def switches(self) -> dict[str, int]:
         """The GPIO of each fitted switch, by key."""
-        return self._fitted(SWITCHES)
+        return self.given(*SWITCHES)
 
     @property
     def meters(self) -> dict[str, int]:
         """The output of each meter, by its axis."""
-        return {key.removesuffix("_meter"): output for key, output in self._fitted(METERS).items()}
+        return {key.removesuffix("_meter"): output for key, output in self.given(*METERS).items()}
 
     @property
     def lamps(self) -> dict[str, int]:
         """The output of each lamp, by its name."""
-        return {key.removeprefix("lamp_"): output for key, output in self._fitted(LAMPS).items()}
+        return {key.removeprefix("lamp_"): output for key, output in self.given(*LAMPS).items()}
 
     @property
     def has_mode_switch(self) -> bool:
@@ -142,15 +139,6 @@ class PanelTable(Table):
         """Whether there is a panel at all."""
         return bool(self.switches or self.uses_adc or self.uses_outputs)
 
-    def _fitted(self, keys: tuple[str, ...]) -> dict[str, int]:
-        return {key: place for key in keys if (place := getattr(self, key)) is not None}
-
-    def _twice(self, kind: str, keys: tuple[str, ...]) -> list[str]:
-        users: dict[int, list[str]] = {}
-        for key, place in self._fitted(keys).items():
-            users.setdefault(place, []).append(key)
-        return [f"{kind} {place} is used by {' and '.join(names)}" for place, names in users.items() if len(names) > 1]
-
 
 class LimitsTable(Table):
     """Normally closed, to ground: a broken wire acts as a reached limit."""
@@ -164,5 +152,4 @@ class LimitsTable(Table):
     @property
     def switches(self) -> dict[str, int]:
         """The GPIO of each fitted switch, by key."""
-        keys = ("azimuth_low", "azimuth_high", "elevation_low", "elevation_high")
-        return {key: pin for key in keys if (pin := getattr(self, key)) is not None}
+        return self.given(*type(self).model_fields)

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rotator.config import migrations, toml_text
-from rotator.config.load import ConfigError, Mistake, parse
+from rotator.config import migrations
+from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
-from rotator.config.statements import Place, places
-from rotator.config.writing import WRITING, replace
+from rotator.config.statements import Place, statements
+from rotator.config.toml_text import WRITING, read, replace
 
 
 class OverwritesError(Exception):
@@ -67,7 +67,7 @@ def digest(text: str) -> str:
 
 def settings(path: Path) -> Settings:
     """Raises OSError, and ConfigError for what is no TOML."""
-    text = _text(path)
+    text = read(path)
     try:
         values = migrations.values(text)
     except ValueError:
@@ -84,7 +84,7 @@ def propose(path: Path, begun: str, make: Callable[[str], str]) -> Proposal:
 
     Raises what `make` raises, OverwritesError, OSError, and ConfigError for a file that is no TOML.
     """
-    before = _text(path)
+    before = read(path)
     if digest(before) != begun:
         raise OverwritesError
     try:
@@ -99,32 +99,19 @@ def write(path: Path, proposal: Proposal) -> None:
     """Write it, the old text beside it as `.bak`. Raises OverwritesError, OSError, and ConfigError for one with
     mistakes."""
     with WRITING:
-        if _text(path) != proposal.before:
+        if read(path) != proposal.before:
             raise OverwritesError
         parse(proposal.after, str(path))
         replace(path, proposal.before, proposal.after)
-
-
-def _text(path: Path) -> str:
-    try:
-        return toml_text.read(path)
-    except toml_text.NoTextError as none:
-        raise ConfigError(str(path), [none.mistake]) from none
 
 
 def _form_mistakes(text: str) -> tuple[FormMistake, ...]:
     try:
         parse(text, "the file")
     except ConfigError as fault:
-        lines = places(text)
-        return tuple(FormMistake(mistake.text, _about(mistake, lines)) for mistake in fault.mistakes)
+        at = {each.line: each.place for each in statements(text)}
+        return tuple(
+            FormMistake(mistake.text, tuple(at[line] for line in mistake.lines if line in at))
+            for mistake in fault.mistakes
+        )
     return ()
-
-
-def _about(mistake: Mistake, lines: Any) -> tuple[Place, ...]:
-    """The longest place in each of its lines: a key rather than its table."""
-    found = []
-    for line in mistake.lines:
-        there = [place for place, at in lines.items() if line in at]
-        found += [max(there, key=len)] if there else []
-    return tuple(dict.fromkeys(found))

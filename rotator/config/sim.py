@@ -34,11 +34,11 @@ class SimElevation(SimAxisTable):
 
 
 class Sim(PerAxis, Table):
-    azimuth: SimAxisTable = SimAxisTable()
+    azimuth: SimAxisTable = SimAxisTable.model_construct()
     """The simulated azimuth motor and pot."""
-    elevation: SimElevation = SimElevation()
+    elevation: SimElevation = SimElevation.model_construct()
     """The simulated elevation motor and pot."""
-    mount: MountTerms = MountTerms()
+    mount: MountTerms = MountTerms.model_construct()
     """How the simulated mount really stands."""
     world: FilePath | None = None
     """A file with the true angles, from which the next run begins; the box then keeps its other files, as on a Pi."""

@@ -5,12 +5,13 @@ Knows keys and bounds. Does not read elements, and does not know which names the
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 from urllib.parse import urlsplit
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
-from rotator.config.links import address, networks
+from rotator.config.links import Address, Networks
 from rotator.config.table import Table
 
 
@@ -29,9 +30,9 @@ class SkyTable(Table):
     read again when they change."""
     fetch: list[str] = Field(default_factory=list, max_length=16)
     """Addresses, http or https, from which the box fetches elements."""
-    serve: str | None = None
+    serve: Address | None = None
     """Where other boxes fetch its elements, "host:port"; `fetch = "http://HOST:PORT/elements"` there."""
-    allow: list[str] | None = None
+    allow: Networks | None = None
     """serve: addresses and networks of the machines that may; left out, those of private networks."""
     follow: list[FollowTable] = Field(default_factory=list, max_length=100)
     """A target whose passes are wanted; `rotator sky plan` shows which are flown."""
@@ -51,24 +52,6 @@ class SkyTable(Table):
                 raise ValueError(f'"{text}" stands there twice: take one out')
         return texts
 
-    @field_validator("serve")
-    @classmethod
-    def _a_place(cls, text: str | None) -> str | None:
-        if text is not None:
-            address(text)
-        return text
-
-    @field_validator("allow")
-    @classmethod
-    def _networks(cls, texts: list[str] | None) -> list[str] | None:
-        return networks(texts)
-
-    @model_validator(mode="after")
-    def _allow_goes_with_serve(self) -> SkyTable:
-        if self.allow is not None and self.serve is None:
-            raise ValueError('allow is for serve, which says where others fetch: serve = "0.0.0.0:8233"')
-        return self
-
     @field_validator("follow", mode="before")
     @classmethod
     def _tables(cls, value: Any) -> Any:
@@ -78,16 +61,13 @@ class SkyTable(Table):
             raise ValueError(f'each target has a table of its own: write [[sky.follow]] and below it name = "{named}"')
         return value
 
-    @model_validator(mode="after")
-    def _each_once(self) -> SkyTable:
+    def faults(self) -> Iterator[str]:
+        if self.allow is not None and self.serve is None:
+            yield 'allow is for serve, which says where others fetch: serve = "0.0.0.0:8233"'
         names = ["".join(each.name.split()).casefold() for each in self.follow]
         for number, name in enumerate(names):
-            if name in names[:number]:
-                first = names.index(name)
-                raise ValueError(
-                    f'follow[{number}] names "{self.follow[number].name}", as follow[{first}] does: take one out'
-                )
-        return self
+            if (first := names.index(name)) < number:
+                yield f'follow[{number}] names "{self.follow[number].name}", as follow[{first}] does: take one out'
 
 
 def _is_address(text: str) -> bool:

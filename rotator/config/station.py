@@ -6,9 +6,11 @@ Knows the two ways to name a place, how exact it must be, the antenna's beam, an
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Annotated
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import AfterValidator, Field
 
 from rotator.config.table import Table
 
@@ -23,6 +25,12 @@ NO_PLACE = no_place(None)
 _LOCATOR = re.compile(r"[A-R]{2}[0-9]{2}[A-X]{2}(?:[0-9]{2}(?:[A-X]{2}(?:[0-9]{2})?)?)?", re.IGNORECASE)
 
 
+def _exact_enough(text: str) -> str:
+    if not _LOCATOR.fullmatch(text):
+        raise ValueError(f'"{text}" must be a locator of 6, 8, 10 or 12 characters, such as "JO62qm"')
+    return text
+
+
 class StationTable(Table):
     latitude_deg: float | None = Field(None, ge=-90, le=90)
     """Degrees north; south is negative. Goes with longitude_deg."""
@@ -30,28 +38,19 @@ class StationTable(Table):
     """Degrees east; west is negative."""
     altitude_m: float = Field(0.0, ge=-430, le=9000)
     """Metres above the sea."""
-    locator: str | None = None
+    locator: Annotated[str, AfterValidator(_exact_enough)] | None = None
     """In place of the two: a Maidenhead locator of 6 to 12 characters."""
     beam_deg: float = Field(20.0, gt=0, le=180)
     """The antenna's beam, from edge to edge at half power: beyond half of it a pointing error is warned of."""
     refraction: bool = False
     """Point higher, as air bends radio waves: 0.6° at the horizon, 0.2° at 5°. Not for what programs send."""
 
-    @model_validator(mode="after")
-    def _one_place(self) -> StationTable:
+    def faults(self) -> Iterator[str]:
         if (self.latitude_deg is None) is not (self.longitude_deg is None):
             missing = "latitude_deg" if self.latitude_deg is None else "longitude_deg"
-            raise ValueError(f"latitude_deg and longitude_deg go together: {missing} is missing")
-        if self.locator is not None and self.latitude_deg is not None:
-            raise ValueError("must have latitude_deg and longitude_deg, or locator, not both")
-        return self
-
-    @field_validator("locator")
-    @classmethod
-    def _exact_enough(cls, text: str | None) -> str | None:
-        if text is not None and not _LOCATOR.fullmatch(text):
-            raise ValueError(f'"{text}" must be a locator of 6, 8, 10 or 12 characters, such as "JO62qm"')
-        return text
+            yield f"latitude_deg and longitude_deg go together: {missing} is missing"
+        elif self.locator is not None and self.latitude_deg is not None:
+            yield "must have latitude_deg and longitude_deg, or locator, not both"
 
     @property
     def is_known(self) -> bool:

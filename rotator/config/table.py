@@ -6,9 +6,10 @@ Knows how strictly the file is checked. Knows no key but `azimuth` and `elevatio
 from __future__ import annotations
 
 import os
-from typing import Annotated, Protocol, TypeVar
+from collections.abc import Iterable
+from typing import Annotated, Protocol, Self, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, model_validator
 
 from hw.ports import Axis
 
@@ -50,6 +51,31 @@ class Table(BaseModel):
         # Built at first use: else every table builds the schemas of all tables in it again, at every start.
         defer_build=True,
     )
+
+    def faults(self) -> Iterable[str]:
+        """Contradictions between the keys of the table, one sentence each. Asked once each key is good by itself."""
+        return ()
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        if faults := list(self.faults()):
+            raise ValueError("\n".join(faults))
+        return self
+
+    def given(self, *keys: str) -> dict[str, int]:
+        """The numbers of those of these keys that are not left out: pins, inputs, outputs."""
+        return {key: number for key in keys if (number := getattr(self, key)) is not None}
+
+
+T = TypeVar("T")
+
+
+def twice(used: Iterable[tuple[T, str]]) -> dict[T, list[str]]:
+    """What several keys use, with these keys. `used`: each thing, with a key that names it."""
+    users: dict[T, list[str]] = {}
+    for thing, key in used:
+        users.setdefault(thing, []).append(key)
+    return {thing: keys for thing, keys in users.items() if len(keys) > 1}
 
 
 T_co = TypeVar("T_co", covariant=True)

@@ -1,59 +1,62 @@
-"""The text of a configuration file, and why a file has none.
+"""The text of a configuration file: read, with the reason why a file has none; and replaced, whole.
 
-Knows encodings. Does not know TOML.
+Knows encodings, and that one changes the file at a time. Does not know TOML: a start of the box loads this, and not
+what writes TOML.
 """
 
 from __future__ import annotations
 
 import codecs
+import threading
 from pathlib import Path
 
-from rotator.config.mistake import Mistake
+from rotator.config.mistake import ConfigError, Mistake
 from rotator.store.plain import read_plain
+from rotator.store.whole import write_whole
+
+WRITING = threading.Lock()
+"""Held from reading the file to replacing it: a calibration and the page do not undo each other's change."""
 
 
-class NoTextError(Exception):
-    """The file holds no text that can be read. `mistake` says why."""
-
-    def __init__(self, mistake: Mistake) -> None:
-        super().__init__(mistake)
-        self.mistake = mistake
+def replace(path: Path, before: str, text: str) -> None:
+    """Write the new text; the old one stays beside it as `.bak`. Raises OSError."""
+    write_whole(path.with_name(path.name + ".bak"), before, like=path)
+    write_whole(path, text)
 
 
 def read(path: Path) -> str:
-    """Raises OSError, NoTextError."""
+    """Raises OSError; ConfigError for a file that holds no text."""
     data = read_plain(path)
     is_utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     if b"\0" in data and not is_utf16 and not _every_second_is_zero(data):
-        raise NoTextError(Mistake(_damaged(path)))
+        raise _no_text(path, _damaged(path))
     if b"\0" in data or is_utf16:
-        raise NoTextError(
-            Mistake(
-                'is saved as UTF-16 (as PowerShell\'s ">" and "Unicode" in Notepad do): save it as UTF-8, '
-                f"or convert it: iconv -f UTF-16 -t UTF-8 {path} > new.toml"
-            )
+        raise _no_text(
+            path,
+            'is saved as UTF-16 (as PowerShell\'s ">" and "Unicode" in Notepad do): save it as UTF-8, '
+            f"or convert it: iconv -f UTF-16 -t UTF-8 {path} > new.toml",
         )
     try:
         # Windows' editor begins a file with a byte order mark, which is no TOML.
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
         line = data[: fault.start].count(b"\n") + 1
-        row = data.split(b"\n")[line - 1].decode("cp1252", "replace")
-        raise NoTextError(
-            Mistake(
-                f"{row.strip()[:60]}: is not saved as UTF-8 (perhaps as ANSI or Latin-1): save the file as UTF-8",
-                (line,),
-            )
-        ) from fault
-    if begins_as := next((kind for mark, kind in _OTHERS if text.lstrip()[:1] == mark), None):
-        raise NoTextError(Mistake(f"{begins_as}: `rotator config --list` shows the shipped files, and how to get one"))
+        row = data.split(b"\n")[line - 1].decode("cp1252", "replace").strip()
+        why = f"{row[:60]}: is not saved as UTF-8 (perhaps as ANSI or Latin-1): save the file as UTF-8"
+        raise _no_text(path, why, line) from fault
+    if begins_as := _OTHERS.get(text.lstrip()[:1]):
+        raise _no_text(path, f"{begins_as}: `rotator config --list` shows the shipped files, and how to get one")
     return text
 
 
-_OTHERS = (
-    ("{", "is JSON, and this file is TOML, with lines such as min_deg = 0"),
-    ("<", "is a web page (HTML) that was saved in place of the file behind its link"),
-)
+_OTHERS = {
+    "{": "is JSON, and this file is TOML, with lines such as min_deg = 0",
+    "<": "is a web page (HTML) that was saved in place of the file behind its link",
+}
+
+
+def _no_text(path: Path, why: str, *lines: int) -> ConfigError:
+    return ConfigError(str(path), [Mistake(why, lines)])
 
 
 def _every_second_is_zero(data: bytes) -> bool:

@@ -6,13 +6,31 @@ stream is silenced; it is answered like any other. The controller checks again, 
 
 from __future__ import annotations
 
-from hw.ports import AngleSource, Axis, Direction
-from rotator.control.refused import measures_its_angle, needs_no_homing, no_relay_in_doubt, turns_while_calibrated
+from hw.ports import Axis, Direction
+from rotator.control.refused import (
+    is_not_fitted,
+    measures_its_angle,
+    needs_no_homing,
+    no_relay_in_doubt,
+    turns_while_calibrated,
+)
 from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.exchange.faults import Missing
 from rotator.exchange.flight_order import Fly
-from rotator.exchange.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, RelaysChecked, RunTimed
+from rotator.exchange.orders import (
+    Aim,
+    Calibrate,
+    Confirm,
+    Home,
+    Jog,
+    LoadTimed,
+    Nudge,
+    Order,
+    Park,
+    RelaysChecked,
+    RunTimed,
+)
 from rotator.exchange.sources import Refusal
 from rotator.exchange.status import Status
 
@@ -26,6 +44,15 @@ WIDEST_DEG = {Axis.AZIMUTH: (-360.0, 720.0), Axis.ELEVATION: (-90.0, 210.0)}
 def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
     """Why `order` will not be obeyed, or None."""
     match order:
+        case (
+            Jog(axis, Direction.PLUS | Direction.MINUS)
+            | Home(axis)
+            | Calibrate(axis)
+            | Confirm(axis)
+            | RelaysChecked(axis)
+            | Nudge(axis)
+        ) if not status.axis(axis).fitted:
+            return Refusal(is_not_fitted(axis.value))
         case Aim():
             stands = places(*((axis.target_deg, axis.angle_deg) for axis in (status.azimuth, status.elevation)))
             aim = joined(mount, order, (status.wanted_azimuth_deg, status.wanted_elevation_deg), stands)
@@ -40,7 +67,7 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return _faulty(order, status)
         case Calibrate(axis) if status.moving:
             return Refusal(turns_while_calibrated(axis.value))
-        case Home(axis) if status.axis(axis).source is not AngleSource.COUNTED:
+        case Home(axis) if not status.axis(axis).homeable:
             return Refusal(needs_no_homing(axis.value))
         case Confirm(axis) if not status.axis(axis).confirmable:
             return Refusal(measures_its_angle(axis.value))
@@ -84,7 +111,9 @@ def _uncalibrated(order: Order, status: Status, needed: tuple[Axis, ...]) -> Ref
     homed again. None: it is admitted."""
     axes = _axes_of(order)
     missing = {
-        axis: f"{axis.value} needs {status.axis(axis).uncalibrated}" for axis in axes if status.axis(axis).missing
+        axis: f"{axis.value} needs {status.axis(axis).uncalibrated}"
+        for axis in axes
+        if status.axis(axis).missing and not status.axis(axis).homes_first
     }
     lacks = any(axis in needed or Missing.HOMING in status.axis(axis).missing for axis in missing)
     return Refusal("UNCALIBRATED: " + "; ".join(missing.values())) if lacks or len(missing) == len(axes) else None

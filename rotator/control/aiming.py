@@ -96,7 +96,7 @@ class Aiming:
             self._pointing.show(aim)
         elif aim.azimuth_deg is not None:
             stands_deg = self._azimuth.angle_deg
-            from_deg = self._mount.azimuth.min_deg if stands_deg is None else stands_deg
+            from_deg = self._mount.azimuth.shown.min_deg if stands_deg is None else stands_deg
             near_deg, over = self._round.turn(now_s, aim, from_deg)
             stands_el_deg = self._elevation.angle_deg or 0.0
             goals = self._pointing.aim(now_s, aim, near_deg, stands_el_deg, over=over, wanted=by_axes)

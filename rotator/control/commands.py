@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import LetGo
+from rotator.exchange.orders import LetGo, Stop
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,6 +17,8 @@ class Run:
 
     direction: Direction
     until_s: float
+    pace: float = 1.0
+    """The share of full speed, where an output sets it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +38,13 @@ class Steer:
 
 
 @dataclass(frozen=True, slots=True)
+class Seek:
+    """Go on to the lower end, by the drive's own means, until the moment `until_s` at the latest."""
+
+    until_s: float
+
+
+@dataclass(frozen=True, slots=True)
 class Hold:
     """Decelerate and stay there."""
 
@@ -47,7 +56,7 @@ class Unfed:
 
 HOLD, UNFED = Hold(), Unfed()
 
-Command = Run | Feed | Unfed | Steer | Hold
+Command = Run | Feed | Unfed | Steer | Seek | Hold
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +74,14 @@ class Place:
     angle_deg: float
 
 
-Errand = Acknowledge | Place | LetGo
+@dataclass(frozen=True, slots=True)
+class Turns:
+    """The axis is seen to turn, and no relay drives it: its brake waits."""
+
+    axis: Axis
+
+
+Errand = Acknowledge | Place | Turns | LetGo | Stop
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,3 +91,5 @@ class Decision:
     command: Command
     homed_deg: float | None = None
     """The end stop was found in this cycle, at this angle; None: no end stop was found in this cycle."""
+    turns: bool = False
+    """An axis with a brake is seen to turn without its motor."""

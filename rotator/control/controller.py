@@ -10,10 +10,11 @@ from collections.abc import Iterable, Mapping
 
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
+from rotator.control.axis.absent import AbsentAxis
 from rotator.control.axis.build import build_axis
 from rotator.control.axis.readings import Reading
 from rotator.control.boom import with_boom
-from rotator.control.commands import Acknowledge, Command, Errand, Place, Run
+from rotator.control.commands import Acknowledge, Command, Errand, Place, Run, Turns
 from rotator.control.cycles import Cycles
 from rotator.control.fence import Fence
 from rotator.control.movements import Movements
@@ -61,6 +62,7 @@ class Controller:
             for each in (settings.azimuth, settings.elevation)
         }
         self._axes = axes
+        self._fitted = {axis: each for axis, each in axes.items() if not isinstance(each, AbsentAxis)}
         agree_deg = max(settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg)
         self._authority = Authority(settings.mode, agree_deg, settings.latch, attended=settings.attended)
         self._movements = Movements(settings, axes)
@@ -81,7 +83,7 @@ class Controller:
         """One cycle: take the readings and the orders, and decide what each drive is to do."""
         for fault in self._cycles.begin(now_s, running=self._running):
             self._axes[fault.axis].fail(fault)
-        for axis, control in self._axes.items():
+        for axis, control in self._fitted.items():
             if axis in readings:
                 control.see(readings[axis], now_s)
         for source, order in orders:
@@ -96,11 +98,13 @@ class Controller:
             self.troubles.append(str(reason))
         self._movements.look_ahead(now_s)
         commands: dict[Axis, Command] = {}
-        for axis, control in self._axes.items():
+        for axis, control in self._fitted.items():
             decision = control.decide(now_s)
             commands[axis] = decision.command
             if decision.homed_deg is not None:
                 self.errands.append(Place(axis, decision.homed_deg))
+            if decision.turns:
+                self.errands.append(Turns(axis))
         commands = self._fence.passed(now_s, commands)
         for fault in kept_off(self._axes, commands):
             self._axes[fault.axis].fail(fault)
@@ -124,7 +128,7 @@ class Controller:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
         for fault in self._cycles.end(now_s, running=self._running):
             self._axes[fault.axis].fail(fault)
-        for axis, control in self._axes.items():
+        for axis, control in self._fitted.items():
             control.note_driven(now_s, driven[axis])
         self._movements.note_driven(now_s)
         self._starts.note_driven(now_s, driven)
@@ -173,6 +177,7 @@ class Controller:
         match order:
             case Stop(axes, latch):
                 self._stop(source, axes, latch=latch, now_s=now_s)
+                self.errands.append(order)
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())
@@ -198,6 +203,8 @@ class Controller:
                 self._movements.timed.clear()
             case Speed(level):
                 self._speed_level = level
+                for control in self._axes.values():
+                    control.limit_speed(level)
             case Remark(axis, text, lcd):
                 self._remarks[axis] = (Notice(text, lcd),) if text else ()
             case RelaysChecked(axis):

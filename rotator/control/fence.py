@@ -30,8 +30,8 @@ class Fence:
         self, mount: Mount, axes: Mapping[Axis, ControlledAxis], *, period_s: float, attended: bool = False
     ) -> None:
         self._axes = axes
-        self._sectors = [kept(sector) for sector in mount.sectors]
-        self._limits = Box(mount.azimuth, mount.elevation)
+        self._mount = mount
+        self._look_about(0.0)
         self._period_s = period_s
         self._attended = attended
         self._held: dict[Axis, tuple[Notice, float]] = {}
@@ -39,10 +39,12 @@ class Fence:
     def passed(self, now_s: float, wishes: Mapping[Axis, Command]) -> dict[Axis, Command]:
         """These commands, shortened or stopped where a sector is in the way."""
         commands = dict(wishes)
-        moves = [axis for axis in Axis if _moves(commands[axis])] if self._sectors else []
+        moves = [axis for axis, command in commands.items() if _moves(command)] if self._sectors else []
         if not moves:
             return commands
         here = Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))
+        if self._mount.azimuth.endless and here.azimuth != UNKNOWN:
+            self._look_about(here.azimuth.min_deg)
         if self._attended and here == Box(UNKNOWN, UNKNOWN):
             return commands
         # The motor that runs goes first: one that waits for the other starts once, one that is stopped starts twice.
@@ -69,6 +71,11 @@ class Fence:
             if axis not in granted:
                 commands[axis] = self._held_back(now_s, axis, commands[axis], swept)
         return commands
+
+    def _look_about(self, azimuth_deg: float) -> None:
+        mount = self._mount.about(azimuth_deg)
+        self._sectors = [kept(sector) for sector in mount.sectors]
+        self._limits = Box(mount.azimuth, mount.elevation)
 
     def notices(self, axis: Axis, now_s: float) -> tuple[Notice, ...]:
         """Why the latest command of this axis was not carried out."""
@@ -121,7 +128,7 @@ class Fence:
         return notice
 
     def _met(self, box: Box) -> list[str]:
-        return [each.name for each in self._sectors if each.box.meets(box)]
+        return list(dict.fromkeys(each.name for each in self._sectors if each.box.meets(box)))
 
 
 def _moves(command: Command) -> bool:

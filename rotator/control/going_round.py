@@ -25,6 +25,10 @@ PLACE_TOLERANCE_DEG = 0.8 * BESIDE_DEG
 """How near to a place on its way an axis has to come."""
 SAME_DEG = 0.25
 """A target that has moved by less needs no new way."""
+LONG_DEG = 200.0
+"""Without ends a target further away than this has a shorter way. Near half a turn it keeps to the way begun."""
+SAME_SIDE_DEG = 20.0
+"""A target that has moved by less is still gone to by the same way round."""
 MORE_ROOM_DEG = 0.1
 """If a motor needs this much more room before a sector than was known, the ways are computed anew."""
 
@@ -34,6 +38,10 @@ class GoingRound:
         self._mount = mount
         self._axes = axes
         self._room_deg = self._room()
+        self._turn_deg = 0.0
+        """Where the turn begins on which the antenna is, on a scale without ends; else 0."""
+        self._side_deg: float | None = None
+        """On such a scale: the place of a target that it goes to by the long way round."""
         self.detours = self._detours() if mount.sectors else None
         self._wishes: dict[Axis, AimGoal] = {}
         """The goals as asked for."""
@@ -67,8 +75,9 @@ class GoingRound:
         if not here.known:
             return from_deg, False
         ways = [
-            (self.detours.seconds(here, (place_deg, raised_deg)), over, abs(place_deg - from_deg), place_deg)
+            (self.detours.seconds(here, (side_deg, raised_deg)), over, abs(side_deg - from_deg), side_deg)
             for place_deg, raised_deg, over in self._mount.places(azimuth_deg, elevation_deg)
+            for side_deg in self._sides(place_deg, from_deg)
         ]
         # Over the top only where no other place is free.
         ways = [way for way in ways if math.isfinite(way[0])]
@@ -81,9 +90,23 @@ class GoingRound:
         """Go there from now on. An order may move the other axis out of the way too."""
         self._stopped.clear()
         self._waits_deg.clear()
+        if axis is Axis.AZIMUTH:
+            goal = self._short(goal, goal.target_deg)
         self._axes[axis].aim(goal)
         if self.detours is not None:
             self._wishes[axis] = goal
+
+    def _short(self, goal: AimGoal, place_deg: float) -> AimGoal:
+        """Without ends: this goal of the azimuth, now at that place, on the turn that is nearest to the antenna."""
+        stands_deg = self._axes[Axis.AZIMUTH].angle_deg
+        by_deg = 0.0 if stands_deg is None else self._mount.near_deg(place_deg, stands_deg) - place_deg
+        return goal.mapped(lambda angle_deg: angle_deg + by_deg) if by_deg else goal
+
+    def _sides(self, place_deg: float, from_deg: float) -> list[float]:
+        """Both ways round to a place, where the axis has no ends: first the short one."""
+        near_deg = self._mount.near_deg(place_deg, from_deg)
+        long_deg = near_deg - math.copysign(FULL_TURN_DEG, near_deg - from_deg)
+        return [near_deg, long_deg] if self._mount.azimuth.endless else [place_deg]
 
     def stop(self, axes: tuple[Axis, ...]) -> None:
         """These axes stay where they are until the next order."""
@@ -101,6 +124,11 @@ class GoingRound:
     def lead(self, now_s: float) -> None:
         """Give each axis the goal of this moment."""
         if self.detours is None:
+            goal, stands_deg = self._axes[Axis.AZIMUTH].aiming, self._axes[Axis.AZIMUTH].angle_deg
+            if self._mount.azimuth.endless and goal is not None and stands_deg is not None:
+                place_deg = _place_deg(goal, now_s)
+                if abs(place_deg - stands_deg) > LONG_DEG:
+                    self._axes[Axis.AZIMUTH].aim(self._short(goal, place_deg))
             return
         self._keep_room()
         # A fault has stopped its axis. Its acknowledgement orders no motion of it.
@@ -118,6 +146,11 @@ class GoingRound:
         azimuth_deg, elevation_deg = (
             _place_deg(wishes[axis], now_s) if axis in wishes else here.of(axis).middle_deg for axis in Axis
         )
+        if self._mount.azimuth.endless and Axis.AZIMUTH in wishes:
+            side_deg = self._side(here, (azimuth_deg, elevation_deg))
+            by_deg, azimuth_deg = side_deg - azimuth_deg, side_deg
+            wishes[Axis.AZIMUTH] = wishes[Axis.AZIMUTH].mapped(lambda angle_deg: angle_deg + by_deg)
+            self._wishes = dict(wishes)
         target = azimuth_deg, elevation_deg
         if self.detours.free(here, target):
             self._target = self._detour = None
@@ -131,6 +164,23 @@ class GoingRound:
                 # This axis moves out of the way, and comes back.
                 wishes[axis] = self._wishes[axis] = AimGoal(here.of(axis).middle_deg, PLACE_TOLERANCE_DEG)
         self._go(wishes, self._way(here, target), target)
+
+    def _side(self, here: Box, target: Place) -> float:
+        """By which way round the antenna goes to a target, without ends: the short way where it is free, else the way
+        on which it is already, else the one that takes less time."""
+        assert self.detours is not None
+        stands_deg, kept_deg = here.azimuth.middle_deg, self._side_deg
+        near_deg, long_deg = self._sides(target[0], stands_deg)
+        if self.detours.free(here, (near_deg, target[1])):
+            self._side_deg = None
+            return near_deg
+        sides_deg = [near_deg, long_deg]
+        if kept_deg is not None:
+            sides_deg = [each for each in sides_deg if abs(each - kept_deg) < SAME_SIDE_DEG] or sides_deg
+        if len(sides_deg) > 1:
+            sides_deg.sort(key=lambda each: self.detours.seconds(here, (each, target[1])) if self.detours else 0.0)
+        self._side_deg = sides_deg[0]
+        return sides_deg[0]
 
     def _wait(self, wishes: Mapping[Axis, AimGoal], here: Box) -> None:
         """The axis that would have to move out of the way was stopped: the other one stays where it is."""
@@ -177,12 +227,17 @@ class GoingRound:
     def _detours(self) -> Detours:
         azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
         about_deg = azimuth.position_error_deg, elevation.position_error_deg
-        return Detours(self._mount, self._room_deg, about_deg, Speeds(azimuth.speed_dps, elevation.speed_dps))
+        return Detours(
+            self._mount.about(self._turn_deg), self._room_deg, about_deg, Speeds(azimuth.speed_dps, elevation.speed_dps)
+        )
 
     def _keep_room(self) -> None:
         """A motor that turns out to be faster needs more room: the fence would hold it back at a place too near."""
-        room_deg = self._room()
-        if any(
+        room_deg, stands_deg = self._room(), self._axes[Axis.AZIMUTH].angle_deg
+        turn_deg = self._turn_deg
+        if self._mount.azimuth.endless and stands_deg is not None:
+            self._turn_deg = stands_deg // FULL_TURN_DEG * FULL_TURN_DEG
+        if turn_deg != self._turn_deg or any(
             now_deg > before_deg + MORE_ROOM_DEG for now_deg, before_deg in zip(room_deg, self._room_deg, strict=True)
         ):
             azimuth_deg, elevation_deg = map(max, room_deg, self._room_deg)

@@ -11,15 +11,14 @@ from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
-from rotator.control.refused import Refused, needs_no_homing
 from rotator.exchange.sources import Source
 
 
 class HomingQueue:
-    """`axes`: those that can be homed take part."""
+    """`axes`: all; those that can be homed take part."""
 
     def __init__(self, axes: Mapping[Axis, ControlledAxis]) -> None:
-        self._axes = {name: axis for name, axis in axes.items() if axis.homeable}
+        self._axes = axes
         self._waiting: deque[Axis] = deque()
         self._asked_by: Source | None = None
 
@@ -34,8 +33,8 @@ class HomingQueue:
 
     def ask(self, axis: Axis, source: Source) -> None:
         """Raises Refused where the axis has no end stop to find."""
-        if axis not in self._axes:
-            raise Refused(needs_no_homing(axis.value))
+        if not self._axes[axis].homeable:
+            self._axes[axis].home()  # it says why not
         self._asked_by = source
         self._waiting.append(axis)
 
@@ -53,4 +52,5 @@ class HomingQueue:
 
     @property
     def _homing(self) -> bool:
-        return any(axis.homing for axis in self._axes.values())
+        """On its way to a target an axis finds its stop without having been asked."""
+        return any(axis.homing and axis.aiming is None for axis in self._axes.values())

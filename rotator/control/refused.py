@@ -19,6 +19,10 @@ def measures_its_angle(axis: str) -> str:
     return f"{axis} measures its angle: there is nothing to confirm"
 
 
+def is_not_fitted(axis: str) -> str:
+    return f"this rotor has no {axis}: {axis}.fitted = false"
+
+
 def turns_while_calibrated(axis: str) -> str:
     return f"{axis} cannot be calibrated while the antenna moves"
 

@@ -19,7 +19,7 @@ def kept_off(axes: Mapping[Axis, ControlledAxis], commands: Mapping[Axis, Comman
     """For each axis whose command would feed the motor of the other one too: the fault that stops it."""
     faults = []
     for axis, other in ((Axis.AZIMUTH, Axis.ELEVATION), (Axis.ELEVATION, Axis.AZIMUTH)):
-        if axes[other].turns_when_fed and _feeds(commands[axis]):
+        if axis in commands and axes[other].turns_when_fed and _feeds(commands[axis]):
             measured = f"a relay of {other.value} was found closed, and the motors' supply would turn {other.value} too"
             advice = f"Replace that relay, then: rotator relays-checked {other.value}"
             faults.append(Fault(FaultKind.RELAY_WELDED, axis, measured, advice=advice))

@@ -16,6 +16,7 @@ from rotator.config.forbidden import seen_again
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, warn, wrong
+from rotator.doctor.machine import Machine
 from rotator.exchange.faults import Missing
 
 KEYS = {
@@ -39,18 +40,14 @@ def configuration(path: Path | None) -> Iterator[Finding]:
         yield fine(f"{path or 'the shipped one, because no file is given'}: {rotor}")
 
 
-def axes(config: Config) -> Iterator[Finding]:
+def axes(_machine: Machine, config: Config) -> Iterator[Finding]:
     if config.rotor.hardware == "sim":
         yield fine("a simulated rotor needs no calibration")
         return
-    yield from (_set_up(config, axis) for axis in Axis)
+    yield from (_set_up(config, axis) for axis in config.fitted)
 
 
-def has_sectors(config: Config) -> bool:
-    return bool(config.mount.forbidden)
-
-
-def sectors(config: Config) -> Iterator[Finding]:
+def sectors(_machine: Machine, config: Config) -> Iterator[Finding]:
     again = seen_again(config.mount.forbidden, {axis: config.axis(axis) for axis in Axis})
     for sentence, keys in again:
         yield warn(sentence, f"If the antenna touches it there, add a [[mount.forbidden]] with {keys}.")
@@ -61,6 +58,11 @@ def sectors(config: Config) -> Iterator[Finding]:
 def _set_up(config: Config, axis: Axis) -> Finding:
     name, table, angle = axis.value, config.axis(axis), config.angle(axis)
     lacks = missing(table, calibrated=own_points(config, axis) is not None)
+    if not table.sensor.learnt:
+        return wrong(
+            f"{name} is not set up, and obeys short presses only: its compass has not learnt the iron around it",
+            f"Run rotator calibrate compass --config FILE, then rotator calibrate {name} --config FILE.",
+        )
     if lacks:
         keys = [f"{name}.{key}" for each in lacks for key in KEYS[each]]
         return wrong(
@@ -68,4 +70,5 @@ def _set_up(config: Config, axis: Axis) -> Finding:
             f"Run rotator calibrate {name} --config FILE; or write {' and '.join(keys)} yourself.",
         )
     known = angle.by or "calibrated"
-    return fine(f"{name}: {table.min_deg:g}° to {table.max_deg:g}°, {known}, direction checked")
+    span = "turns without ends" if config.endless(axis) else f"{table.min_deg:g}° to {table.max_deg:g}°"
+    return fine(f"{name}: {span}, {known}, direction checked")

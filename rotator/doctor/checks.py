@@ -11,102 +11,107 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from hw.ports import Axis
 from rotator.assembly.chips import simulated_chips
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor import (
     account,
     axes,
-    boot,
-    bus,
-    counts,
-    elements,
-    health,
+    chips,
+    computer,
+    controllers,
+    kept,
     links,
     moteus,
     outputs,
     running,
-    sensors,
-    software,
     switches,
     wires,
 )
 from rotator.doctor.finding import Check, Finding, skipped, wrong
 from rotator.doctor.machine import Machine
+from rotator.setup.pins import closing, off_lines
 
 CONFIGURATION: Check[[Path | None]] = Check(
     "configuration", "each key and value of the file is allowed", axes.configuration
 )
 
 OF_THE_MACHINE: tuple[Check[[Machine]], ...] = (
-    Check("python", "version 3.11 to 3.13", software.python),
-    Check("packages", "gpiod 2.1 or later, smbus2, pyserial", software.packages),
-    Check("kernel", "version 5.10 or later; the model of the Pi", software.kernel),
-    Check("power", "under-voltage now, or since the start", health.power),
-    Check("temperature", "processor below 80 °C", health.temperature),
-    Check("clock", "set by the network", health.clock),
-    Check("watchdog", "restarts a frozen computer", health.watchdog),
-    Check("service", "if installed: it runs, and starts with the Pi", health.service),
+    Check("python", "version 3.11 to 3.13", computer.python),
+    Check("packages", "gpiod 2.1 or later, smbus2, pyserial", computer.packages),
+    Check("kernel", "version 5.10 or later; the model of the Pi", computer.kernel),
+    Check("power", "under-voltage now, or since the start", computer.power),
+    Check("temperature", "processor below 80 °C", computer.temperature),
+    Check("clock", "set by the network", computer.clock),
+    Check("watchdog", "restarts a frozen computer", computer.watchdog),
+    Check("service", "if installed: it runs, and starts with the Pi", computer.service),
     Check("running box", "its faults, who has stopped it, its notes", running.running_box),
 )
 
 OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
-    Check(
-        "axes", "each has limits, a direction check, and a calibration if it needs one",
-        lambda _machine, config: axes.axes(config),
-    ),
+    Check("axes", "each has limits, a direction check, and a calibration if it needs one", axes.axes),
     Check(
         "sectors", "what stands in a forbidden sector is fenced off on other turns and over the top too",
-        lambda _machine, config: axes.sectors(config), concerns=axes.has_sectors,
+        axes.sectors, concerns=lambda config: config.mount.forbidden,
     ),
     Check(
-        "counts", "the saved counts are valid; each axis is homed",
-        counts.counts, concerns=counts.keeps_counts,
+        "counts", "the saved counts are valid; each axis is homed", kept.counts,
+        concerns=lambda config: config.rotor.hardware == "pi" and any(map(config.counts, Axis)),
     ),
     Check(
         "GPIO chip", "the chip of the 40-pin header is there, and opens",
-        wires.gpio_chip, on_chips=True, concerns=wires.has_lines,
+        wires.gpio_chip, on_chips=True, concerns=wires.lines,
     ),
     Check(
-        "GPIO lines", "no other program holds a line of the box",
-        wires.gpio_lines, on_chips=True, concerns=wires.has_lines,
+        "GPIO lines", "no other program holds a line of the box", wires.gpio_lines, on_chips=True, concerns=wires.lines
     ),
-    Check("I2C bus", "it is there, and opens", bus.i2c_bus, on_chips=True, concerns=bus.has_chips),
+    Check("I2C bus", "it is there, and opens", chips.i2c_bus, on_chips=True, concerns=Config.chips),
     Check(
         "I2C devices", "every chip in the file answers; if not, which address does",
-        bus.i2c_devices, on_chips=True, concerns=bus.has_chips,
+        chips.i2c_devices, on_chips=True, concerns=Config.chips,
     ),
     Check(
         "pots", "steady readings, within lowest_reading and highest_reading \\*",
-        bus.pots, on_chips=True, alone=True, concerns=bus.has_pots,
+        chips.pots, on_chips=True, alone=True, concerns=lambda config: config.uses_adc,
     ),
     Check(
-        "sensors", "AS5600: magnet; MPU6050: 1 g; BNO055: heading \\*",
-        sensors.sensors, on_chips=True, alone=True, concerns=sensors.has_sensors,
+        "sensors", "encoders: magnet; LS7366R: answers; gravity: 1 g; compass: field \\*",
+        chips.sensors, on_chips=True, alone=True,
+        concerns=lambda config: config.compass.chips() or chips.sensed(config) or chips.counters(config),
     ),
     Check(
         "PCA9685", "the chips of servos and panel answer, and were not reset",
-        outputs.output_boards, on_chips=True, concerns=outputs.has_boards,
+        outputs.output_boards, on_chips=True, concerns=outputs.boards,
     ),
     Check(
         "moteus", "library, adapter; both controllers: supply, fault, known angle \\*",
-        moteus.controllers, on_chips=True, alone=True, concerns=moteus.is_moteus,
+        moteus.controllers, on_chips=True, alone=True, concerns=lambda config: config.rotor.type == "moteus",
+    ),
+    Check(
+        "controller", "its port, and the angle that it tells \\*", controllers.ready_made, alone=True,
+        concerns=lambda config: config.rotor.type == "controller" and config.rotor.hardware == "pi",
     ),
     Check(
         "SPI", "for chips on the kernel's SPI: the package spidev, and the devices",
-        outputs.spi, on_chips=True, concerns=outputs.uses_spi,
+        outputs.spi, on_chips=True, concerns=outputs.kernels_spi,
+    ),
+    Check(
+        "PWM", "the header's hardware PWM is there", outputs.pwm, on_chips=True,
+        concerns=lambda config: config.rotor.type == "h-bridge" or "pwm" in {s.output for s in config.speeds.values()},
     ),
     Check(
         "switches", "stop button and limit switches are closed; position of the mode switch \\*",
-        switches.switches, on_chips=True, alone=True, concerns=switches.has_switches,
+        switches.switches, on_chips=True, alone=True,
+        concerns=lambda config: config.panel.switches or config.limits.switches,
     ),
     Check(
         "released lines", "`strict_gpiod`: the relays open when the program dies",
-        boot.released_lines, concerns=boot.has_relays,
+        wires.released_lines, on_a_pi=True, concerns=closing,
     ),
     Check(
         "boot pins", "`gpio=` in config.txt: relays and enable lines are off while the Pi starts",
-        boot.boot_pins, concerns=boot.has_lines,
+        wires.boot_pins, on_a_pi=True, concerns=off_lines,
     ),
     Check("serial ports", "those of the links are there, open, and free of consoles", links.serial_ports),
     Check("pseudo-terminals", "those of the links can be created", links.pseudo_terminals),
@@ -115,7 +120,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     Check("UDP ports", "the same for links that receive datagrams", links.udp_ports),
     Check(
         "elements", "the files can be read and are not old; fetching works",
-        elements.elements, concerns=elements.has_elements,
+        kept.elements, concerns=lambda config: config.sky.elements or config.sky.fetch,
     ),
     Check("groups", "those that the file needs, for you and the service's user", account.groups),
     Check("state folder", "writable, and the card is not full", account.state_folder),
@@ -180,6 +185,10 @@ def look_of(check: Check[[Machine, Config]]) -> Callable[[Machine, Config], Iter
 
     def look(machine: Machine, config: Config) -> Iterator[Finding]:
         left_alone = wires.running(machine, config) if check.alone else None
+        if check.on_a_pi and config.rotor.hardware == "sim":
+            left_alone = skipped("the rotor is simulated")
+        elif check.on_a_pi and not machine.is_pi:
+            left_alone = skipped("not a Raspberry Pi")
         yield from check.look(machine, config) if left_alone is None else [left_alone]
 
     return look

@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Generic, ParamSpec
+from typing import Generic, ParamSpec
 
 from hw.ports import HardwareError
+from rotator.config.model import Config
 
 P = ParamSpec("P")
 
@@ -76,10 +77,6 @@ def refused(about: str, fault: HardwareError) -> Finding:
     )
 
 
-def always(_config: Any) -> bool:
-    return True
-
-
 @dataclass(frozen=True, slots=True)
 class Check(Generic[P]):
     """One check: its name, a sentence for the documentation, and the function that returns its findings."""
@@ -91,5 +88,7 @@ class Check(Generic[P]):
     """The check reads chips, so it also runs on a simulated station."""
     alone: bool = False
     """It uses chips or lines that a running box uses too, so it is left out while the box runs."""
-    concerns: Callable[[Any], bool] = always
+    on_a_pi: bool = False
+    """It reads what only the system of a Raspberry Pi has, and only of a rotor that is real."""
+    concerns: Callable[[Config], object] = lambda config: config
     """Whether the configuration uses the checked part. False: the report leaves the check out."""

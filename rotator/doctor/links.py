@@ -38,23 +38,18 @@ def serial_ports(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def serial_port(machine: Machine, name: str) -> Finding:
-    path = machine.at(name)
     if "://" in name:
         return skipped(f"{name}: opened when the box runs")
-    if not path.exists():
-        return wrong(f"{name} is not there", _absent(machine, name))
-    if not os.access(path, os.R_OK | os.W_OK):
-        return wrong(f"{name}: you may not open it", f"sudo usermod -aG dialout {machine.user}, then log in again.")
-    if path.resolve().name in _consoles(machine):
+    found = machine.opens(name, "dialout", _absent(machine, name))
+    kernel = machine.text("/proc/cmdline")
+    if found.ok and kernel is None:
+        return fine(f"{found.found}; sudo rotator doctor sees whether the kernel's console is on it")
+    if found.ok and machine.at(name).resolve().name in re.findall(r"\bconsole=(tty[A-Z]+\d+)", str(kernel)):
         return wrong(
             f"{name}: the kernel's console is on it, and its messages would be orders",
             "sudo raspi-config, Interface, Serial Port: no login shell; then reboot.",
         )
-    if machine.text("/proc/cmdline") is None:
-        return fine(
-            f"{name} is there and may be opened; sudo rotator doctor sees whether the kernel's console is on it"
-        )
-    return fine(f"{name} is there and may be opened")
+    return found
 
 
 def _absent(machine: Machine, name: str) -> str:
@@ -62,10 +57,6 @@ def _absent(machine: Machine, name: str) -> str:
         return "sudo rotator setup usb-serial makes the Pi a COM port; then reboot."
     there = ", ".join(str(path) for pattern in PORTS for path in machine.glob(pattern))
     return f"Plug it in (the box waits for it), or name one of those that are there: {there or 'none now'}."
-
-
-def _consoles(machine: Machine) -> set[str]:
-    return set(re.findall(r"\bconsole=(tty[A-Z]+\d+)", machine.text("/proc/cmdline") or ""))
 
 
 def pseudo_terminals(machine: Machine, config: Config) -> Iterator[Finding]:

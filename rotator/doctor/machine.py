@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from rotator.assembly.chips import Chips, real_chips
+from rotator.doctor.finding import Finding, fine, wrong
 
 PATIENCE_S = 5.0
 """A program that takes longer does not answer, in seconds."""
@@ -68,6 +69,15 @@ class Machine:
             return self.at(path).read_text(encoding="utf-8", errors="replace").strip(" \t\r\n\0")
         except OSError:
             return None
+
+    def opens(self, device: str, group: str, absent: str) -> Finding:
+        """Whether the user may read and write a device, which this group may. `absent`: what to do if there is none."""
+        path = self.at(device)
+        if not path.exists():
+            return wrong(f"{device} is not there", absent)
+        if not os.access(path, os.R_OK | os.W_OK):
+            return wrong(f"{device}: you may not open it", f"sudo usermod -aG {group} {self.user}, then log in again.")
+        return fine(f"{device} is there and may be opened")
 
     def glob(self, pattern: str) -> list[Path]:
         """The files that match an absolute pattern, as this machine names them, sorted."""

@@ -32,10 +32,6 @@ BRING_UP = (
 )
 
 
-def is_moteus(config: Config) -> bool:
-    return config.rotor.type == "moteus"
-
-
 def controllers(machine: Machine, config: Config) -> Iterator[Finding]:
     if config.rotor.hardware == "pi":
         way = _interface(machine, config.moteus.can) if config.moteus.can else _port(machine, config.moteus.port)

@@ -5,37 +5,31 @@ Knows the state of a PCA9685 before and after the start of the box. Writes to no
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 
 from hw.ports import HardwareError
 from rotator.assembly.chips import OutputBoard
 from rotator.config.chips import KERNEL_SELECTS, I2CChip, SpiUse
 from rotator.config.model import Config
-from rotator.doctor.bus import chip_name
+from rotator.doctor.chips import chip_name
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import box_is_running
 
 SPIDEV = (
     "sudo ./install.sh installs it, now that the file needs it (with gcc and "
-    "python3-dev). Without install.sh: pip install 'spidev>=3.6' in the program's venv;"
+    "python3-dev). Without install.sh: pip install 'spidev>=3.6' in the program's venv"
 )
+ON_LINES_TOO = ("adc", "digipot")
+"""The tables whose chips may be on any GPIO lines."""
 
 
 def boards(config: Config) -> list[I2CChip]:
     return [chip for chip in config.chips() if chip.part == "PCA9685"]
 
 
-def has_boards(config: Config) -> bool:
-    return bool(boards(config))
-
-
 def output_boards(machine: Machine, config: Config) -> Iterator[Finding]:
-    try:
-        is_running: bool | None = box_is_running(machine, config)
-    except HardwareError:
-        is_running = None
+    is_running = box_is_running(machine, config)
     for chip in boards(config):
         name = f"{chip_name(chip.key)}: 0x{chip.address:02x}"
         try:
@@ -70,16 +64,24 @@ def _board(name: str, board: OutputBoard, *, is_running: bool | None) -> Finding
     return fine(f"{name} is a PCA9685, {state}")
 
 
-def uses_spi(config: Config) -> bool:
-    return any(use.kernel for use in config.spi_uses())
+def pwm(machine: Machine, _config: Config) -> Iterator[Finding]:
+    try:
+        yield fine(f"{machine.chips.pwm()}: at the header's pins")
+    except HardwareError as fault:
+        yield wrong(str(fault), 'docs/paths/slew-drive.md, "Wire it", or docs/speed.md.')
+
+
+def kernels_spi(config: Config) -> list[SpiUse]:
+    return [use for use in config.spi_uses() if use.kernel]
 
 
 def spi(machine: Machine, config: Config) -> Iterator[Finding]:
-    uses = [use for use in config.spi_uses() if use.kernel]
+    uses = kernels_spi(config)
     try:
         machine.chips.spidev()
     except HardwareError as fault:
-        yield wrong(str(fault), f'{SPIDEV} or {uses[0].table}.spi = "lines".')
+        lines = [f'; or {use.table}.spi = "lines"' for use in uses if use.table in ON_LINES_TOO]
+        yield wrong(str(fault), SPIDEV + "".join(lines[:1]) + ".")
     for use in uses:
         if config.rotor.hardware == "sim":
             yield fine(use.chips)
@@ -95,9 +97,4 @@ def _device(machine: Machine, use: SpiUse, key: str, pin: int) -> Finding:
             f'{use.table}.{key} = 8 or 7; or {use.table}.spi = "lines".',
         )
     name = f"/dev/spidev0.{KERNEL_SELECTS[pin]}"
-    path = machine.at(name)
-    if not path.exists():
-        return wrong(f"{name} is not there", "sudo rotator setup pins switches it on (dtparam=spi=on); then reboot.")
-    if not os.access(path, os.R_OK | os.W_OK):
-        return wrong(f"{name}: you may not open it", f"sudo usermod -aG spi {machine.user}, then log in again.")
-    return fine(f"{name} is there and may be opened")
+    return machine.opens(name, "spi", "sudo rotator setup pins switches it on (dtparam=spi=on); then reboot.")

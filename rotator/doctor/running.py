@@ -47,7 +47,10 @@ def _held(status: dict[str, Any]) -> Iterator[Finding]:
 def _lacks(status: dict[str, Any]) -> Iterator[Finding]:
     for axis in Axis:
         if "homing" in status[axis.value]["missing"]:
-            yield warn(f"{axis.value} needs homing", f"Watch the antenna, and: rotator home {axis.value}")
+            tell = f"Look where it points, and: rotator confirm {axis.value} DEGREES"
+            home = f"Watch the antenna, and: rotator home {axis.value}"
+            told = status[axis.value]["confirmable"] and not status[axis.value]["homeable"]
+            yield warn(f"{axis.value} needs homing", tell if told else home)
 
 
 def _notes(status: dict[str, Any]) -> Iterator[Finding]:

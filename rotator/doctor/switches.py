@@ -21,10 +21,6 @@ POSITIONS = (
 """Indexed by 2 × MSB + LSB; a closed contact is 1."""
 
 
-def has_switches(config: Config) -> bool:
-    return bool(config.panel.switches or config.limits.switches)
-
-
 def switches(machine: Machine, config: Config) -> Iterator[Finding]:
     panel = {f"panel.{key}": pin for key, pin in config.panel.switches.items()}
     limits = {f"limits.{key}": pin for key, pin in config.limits.switches.items()}

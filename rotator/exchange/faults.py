@@ -57,6 +57,12 @@ class FaultKind(Enum):
         EasycommError.JAM,
         "Check the motor's fuse and supply; look for ice, a rope, a guy wire",
     )
+    BRAKE_HELD = (
+        "brake did not release",
+        "BRAKE HOLDS",
+        EasycommError.JAM,
+        "Listen for its solenoid: check the brake's relay and supply; a wedge may stick; then look for ice, a rope",
+    )
     RUN_TOO_LONG = (
         "motor on longer than the travel takes",
         "RUN TOO LONG",
@@ -111,11 +117,42 @@ class FaultKind(Enum):
         EasycommError.SENSOR,
         "Check the controller's supply and the CAN wires",
     )
+    CONTROLLER_GARBLED = (
+        "controller not understood",
+        "CTRL GARBLED",
+        EasycommError.SENSOR,
+        "Compare protocol and baud rate with the controller's own settings",
+    )
+    CONTROLLER_RUNS_ON = (
+        "controller does not stop",
+        "CTRL RUNS ON",
+        EasycommError.MOTOR,
+        "Switch the controller off; then look at its own stop, and at who else gives it orders",
+    )
     POSITION_UNKNOWN = (
         "position unknown",
         "POS UNKNOWN",
         EasycommError.NOT_CALIBRATED,
         "Look where the antenna points, then: rotator confirm AXIS DEGREES",
+    )
+    MOTOR_DRIVER = "motor driver", "MOTOR DRIVER", EasycommError.MOTOR, "Check the PWM of this Pi: rotator doctor"
+    SPEED_OUTPUT = (
+        "speed output",
+        "SPEED OUTPUT",
+        EasycommError.MOTOR,
+        "Check what makes the speed input's voltage: rotator doctor",
+    )
+    STEPPER_DRIVER = (
+        "stepper driver",
+        "STEP DRIVER",
+        EasycommError.MOTOR,
+        "Check the motor's wires, its current and the chip's cooling",
+    )
+    STEPS_LOST = (
+        "steps lost",
+        "STEPS LOST",
+        EasycommError.JAM,
+        "Look for what holds the antenna; more current, or slower",
     )
     SERVO_BOARD = "servo board", "SERVO BOARD", EasycommError.MOTOR, "Check the board's wires and its 3.3 V supply"
 

@@ -19,7 +19,7 @@ the memory for `a.a.a = 1` grows with the square of its parts."""
 LONGEST_TOML = 128 * 1024
 """Characters of a TOML text: ten times the longest configuration. The worst text of this length takes 60 MB."""
 _STRINGS = re.compile(r'"(?:[^"\\]|\\.?)*+"?', re.DOTALL)
-_STRINGS_AND_REMARKS = re.compile(
+STRINGS_AND_REMARKS = re.compile(
     r'"""(?:[^"\\]|\\.?|"(?!""))*+(?:"{3,5})?'
     r"|'''(?:[^']|'(?!''))*+(?:'{3,5})?"
     r'|"(?:[^"\\\n]|\\[^\n]?)*+"?'
@@ -53,7 +53,7 @@ def check_toml(text: str) -> None:
     """Raises TooMuchError for a text that no reader of TOML should see."""
     if len(text) > LONGEST_TOML:
         raise TooMuchError(f"is longer than {LONGEST_TOML // 1024} KiB: it is no configuration")
-    bare = _STRINGS_AND_REMARKS.sub("", text)
+    bare = STRINGS_AND_REMARKS.sub("", text)
     _check_depth(bare)
     if any(part.count(".") >= DEEPEST for part in _KEY_ENDS.split(bare)):
         raise TooMuchError(f"has a key of more than {DEEPEST} parts")

@@ -99,7 +99,8 @@ class Calibrate:
 
 @dataclass(frozen=True, slots=True)
 class Speed:
-    """GS-232 X1 to X4. A relay has one speed: remembered, shown, without effect there."""
+    """GS-232 X1 to X4: the highest speed of a motor with a speed output. Any other has one speed: there it is only
+    remembered and shown."""
 
     level: int
 

@@ -70,8 +70,15 @@ class AxisStatus:
     """The vain tries of its motor."""
     correction_deg: float = 0.0
     """The boom's direction minus the axis angle, from the measured tilt and offset of the mount."""
+    error_deg: float | None = None
+    """How far an angle reckoned by time may be off; infinite: it is lost. None: the angle is seen or counted."""
     waiting: bool = False
     """Whether its relay waits to close, until the axis stands visibly or the opposite relay has visibly opened."""
+    endless: bool = False
+    """Whether it turns on and on. Its angles are then shown from 0 to 360, and the way from one to another is the short
+    one."""
+    fitted: bool = True
+    """Whether the rotor has this axis. False: the antenna stands at `angle_deg` there, and nothing turns it."""
 
     @property
     def shown_deg(self) -> float | None:
@@ -83,6 +90,23 @@ class AxisStatus:
         return nearest_deg if abs(self.angle_deg - nearest_deg) <= margin_deg else self.angle_deg
 
     @property
+    def homeable(self) -> bool:
+        """Whether it has an end stop to find: it counts pulses or time."""
+        return self.source is AngleSource.COUNTED or self.error_deg is not None
+
+    @property
+    def homes_first(self) -> bool:
+        """Whether it finds its end stop by itself before the next target, and lacks nothing else."""
+        return self.error_deg is not None and self.missing == (Missing.HOMING,)
+
+    @property
+    def error_text(self) -> str:
+        """` ± 6°` where the angle is reckoned by time; empty: it is not."""
+        if self.error_deg is None:
+            return ""
+        return f" ± {math.ceil(self.error_deg)}°" if math.isfinite(self.error_deg) else " ± ?"
+
+    @property
     def points_deg(self) -> float | None:
         """The direction of the boom for programs: on the turn of the axis, and above 90° over the top."""
         return None if self.shown_deg is None else self.shown_deg + self.correction_deg
@@ -92,7 +116,7 @@ class AxisStatus:
         """Whether the axis stands within the tolerance of its target."""
         if self.target_deg is None or self.tolerance_deg is None or self.angle_deg is None:
             return False
-        off_deg = abs(self.angle_deg - self.target_deg)
+        off_deg = abs(self._way_deg(self.angle_deg, self.target_deg))
         return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
 
     @property
@@ -104,11 +128,16 @@ class AxisStatus:
     def off_deg(self) -> float | None:
         """How far it would have to turn to what was ordered; clockwise or up is positive. None: no order, or no
         angle."""
-        return None if self.ordered_deg is None or self.shown_deg is None else self.ordered_deg - self.shown_deg
+        if self.ordered_deg is None or self.shown_deg is None:
+            return None
+        return self._way_deg(self.shown_deg, self.ordered_deg)
+
+    def _way_deg(self, from_deg: float, to_deg: float) -> float:
+        return math.remainder(to_deg - from_deg, 360.0) if self.endless else to_deg - from_deg
 
     def at_end(self, direction: Direction) -> bool:
         """Whether the axis surely stands where no jog turns it further in this direction."""
-        if self.missing or self.angle_deg is None or not self.seen:
+        if self.missing or self.angle_deg is None or not self.seen or not self.fitted or self.endless:
             return False
         end_deg = self.max_deg if direction > 0 else self.min_deg
         return direction is not Direction.OFF and (end_deg - self.angle_deg) * direction <= JOG_ENDS_DEG
@@ -207,9 +236,16 @@ class Status:
     """Why the card does not take what the box must not forget: also one of `notices`. None: it does."""
     cycle_late_s: float = 0.0
     """Seconds by which the last control cycle was late."""
+    orders_wait: bool = False
+    """Whether the box has an order that this status does not know yet."""
 
     def axis(self, axis: Axis) -> AxisStatus:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
+
+    @property
+    def fitted(self) -> tuple[Axis, ...]:
+        """The axes that the rotor has."""
+        return tuple(axis for axis in Axis if self.axis(axis).fitted)
 
     def wanted_deg(self, axis: Axis) -> float | None:
         return self.wanted_azimuth_deg if axis is Axis.AZIMUTH else self.wanted_elevation_deg
@@ -236,13 +272,13 @@ class Status:
     @property
     def stays(self) -> tuple[str, ...]:
         """Why an axis that an order has reached stands beside it, where no fault, notice or missing step says why."""
-        return tuple(f"{axis.value}: {why}" for axis in Axis if (why := self._stays(axis, self.axis(axis))))
+        return tuple(f"{axis.value}: {why}" for axis in self.fitted if (why := self._stays(axis, self.axis(axis))))
 
     def _stays(self, axis: Axis, each: AxisStatus) -> str:
         if each.target_deg is None or each.points_deg is None or each.moving or each.fault or each.missing:
             return ""
         target_deg, wanted_deg = each.target_deg + each.correction_deg, self.wanted_deg(axis)
-        off_deg, raised_deg = abs(each.points_deg - target_deg), self.elevation.points_deg or 0.0
+        off_deg, raised_deg = abs(each.off_deg or 0.0), self.elevation.points_deg or 0.0
         if off_deg >= SHOWN_OFF_DEG and each.at_target:
             sky_deg = off_deg * abs(math.cos(math.radians(raised_deg)))
             sky = f", {sky_deg:.1f}° on the sky" if axis is Axis.AZIMUTH else ""

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import re
 import socket
 import time
 from collections.abc import Callable
 from typing import cast
 
-from rotator.links.browser import Beginning
 from rotator.links.wire import Conversation, Wire
 from rotator.protocols.session import Addressed, Session
 from rotator.runtime.log_limit import LogLimit
@@ -28,6 +28,24 @@ READ_BYTES = 512
 GONE_AFTER_S = (5, 2, 3)
 """Seconds of silence before a client is asked for a sign of life; seconds between two questions; their number. A client
 that has lost power or network does not close its connection; its jog ends 11 s later."""
+_BROWSER = re.compile(rb"(?:GET|HEAD|POST|PUT|PATCH|DELETE|OPTIONS|CONNECT|TRACE) |\x16\x03")
+"""The first word of a request, or the greeting of https: no protocol but `pstrotatoraz`, which judges requests itself,
+begins like this."""
+LONGEST = len(b"OPTIONS ")
+
+
+class Beginning:
+    """The first bytes of one connection, in any pieces: any web site can let the browsers that show it send bytes to a
+    port, with a whole order in the body, and a browser in the network is allowed to connect."""
+
+    def __init__(self) -> None:
+        self._bytes = b""
+
+    def is_a_browsers(self, data: bytes) -> bool:
+        """Take the next bytes. Returns whether the connection has begun as a browser's does."""
+        if len(self._bytes) < LONGEST:
+            self._bytes += data[: LONGEST - len(self._bytes)]
+        return _BROWSER.match(self._bytes) is not None
 
 
 class Clients:

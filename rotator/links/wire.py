@@ -14,7 +14,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.protocols.session import Beating, Ending, Session
+from rotator.protocols.session import ClockedSession, Ending, Session
 
 log = logging.getLogger(__name__)
 
@@ -112,10 +112,10 @@ class Conversation:
         self._reply(self._session.idle)
 
     def _wait_for_beat(self) -> None:
-        if isinstance(self._session, Beating) and self._session.every_s is not None:
+        if isinstance(self._session, ClockedSession) and self._session.every_s is not None:
             self._beating = asyncio.get_running_loop().call_later(self._session.every_s, self._beat, self._session)
 
-    def _beat(self, session: Beating) -> None:
+    def _beat(self, session: ClockedSession) -> None:
         # The next beat first: the reply may end the conversation.
         self._wait_for_beat()
         self._reply(session.beat)

@@ -14,7 +14,7 @@ from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
 from rotator.links.wire import Wire
 from rotator.monitor.transcript import HEADS, At, LinkNote, Peer, Way, encode_at, encode_link, encode_peer, encode_piece
-from rotator.protocols.session import Beating, Inquiry, Session
+from rotator.protocols.session import ClockedSession, Inquiry, Session
 
 MOVED_DEG = 1.0
 MOVED_EVERY_S = 1.0
@@ -153,10 +153,10 @@ class TappedSession:
 
     @property
     def every_s(self) -> float | None:
-        return self._session.every_s if isinstance(self._session, Beating) else None
+        return self._session.every_s if isinstance(self._session, ClockedSession) else None
 
     def beat(self) -> list[bytes]:
-        return self._noted(self._session.beat()) if isinstance(self._session, Beating) else []
+        return self._noted(self._session.beat()) if isinstance(self._session, ClockedSession) else []
 
     def receive(self, data: bytes) -> list[bytes]:
         self._tap.note(self._source, Way.IN, data, text=self._text)

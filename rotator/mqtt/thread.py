@@ -174,7 +174,11 @@ class MqttThread:
             if topic not in self._kept_too_long:
                 client.subscribe(topic, qos=0)
         client.publish(self._topics.availability, ONLINE, retain=True)
-        for topic, text in discovery(self._topics, self._table.may) if self._table.discovery else ():
+        if not self._table.discovery:
+            return
+        status = self._status()
+        axes = [axis for axis in ("azimuth", "elevation") if status[axis]["fitted"]]
+        for topic, text in discovery(self._topics, self._table.may, axes):
             client.publish(topic, text, retain=True)
 
     def _on_message(self, client: Any, _data: object, message: Any) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,8 +69,10 @@ class Topics:
         return f"{self.base}/do/{method}"
 
 
-def discovery(topics: Topics, may: str) -> Iterator[tuple[str, str]]:
-    """Topics and messages by which Home Assistant finds the antenna. `may`: as in [mqtt]."""
+def discovery(topics: Topics, may: str, axes: Collection[str] = tuple(_SENSORS)) -> Iterator[tuple[str, str]]:
+    """Topics and messages by which Home Assistant finds the antenna. `may`: as in [mqtt]. `axes`: those that the rotor
+    has.
+    """
     box = re.sub(r"[^A-Za-z0-9_-]", "_", topics.base)
     device = {"identifiers": [box], "name": "Antenna rotator", "model": "gs232-rotator", "sw_version": __version__}
     common = {"availability_topic": topics.availability, "device": device, "origin": {"name": "gs232-rotator"}}
@@ -80,12 +82,15 @@ def discovery(topics: Topics, may: str) -> Iterator[tuple[str, str]]:
         return f"{PREFIX}/{kind}/{box}/{name}/config", json.dumps(whole, ensure_ascii=False)
 
     for name, fields in _SENSORS.items():
-        yield entity("sensor", name, {**fields, **_ANGLE, "state_topic": topics.status})
+        if name in axes:
+            yield entity("sensor", name, {**fields, **_ANGLE, "state_topic": topics.status})
+        else:
+            yield f"{PREFIX}/sensor/{box}/{name}/config", ""
     for name, fields in _BINARY.items():
         yield entity("binary_sensor", name, {**fields, "state_topic": topics.status})
     for method, (name, icon, rights) in _BUTTONS.items():
         if may in rights:
             yield entity("button", method, {"name": name, "icon": icon, "command_topic": topics.order(method)})
         else:
-            # Remove the buttons from an earlier start with more rights.
+            # Remove what an earlier start, with more rights or another rotor, has told.
             yield f"{PREFIX}/button/{box}/{method}/config", ""

@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-
-from sgp4.api import SGP4_ERRORS, WGS72, Satrec
+from typing import TYPE_CHECKING
 
 from rotator.orbits.earth import Horizon, Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.moments import DAY_S, J2000_S
 from rotator.orbits.refraction import through_air
 from rotator.orbits.sight import NotThere, Sight
+
+if TYPE_CHECKING:
+    from sgp4.api import Satrec
 
 _SGP4_EPOCH_UTC_S = -631_238_400.0
 """31 December 1949, from which sgp4 counts days, in seconds since 1970."""
@@ -58,7 +60,7 @@ class Satellite:
     def sight(self, utc_s: float) -> Sight:
         error, place_km, _ = self._record.sgp4_tsince((utc_s - self.elements.epoch_utc_s) / 60.0)
         if error or not all(map(math.isfinite, place_km)):
-            raise NotThere(f"{self.name}: {SGP4_ERRORS.get(error, 'its elements give no place')}")
+            raise _refused(self.name, error)
         turned = _earth_turned_rad(utc_s)
         x, y, z = place_km
         cos, sin = math.cos(turned), math.sin(turned)
@@ -74,6 +76,8 @@ class Satellite:
 
 
 def _record(elements: Elements) -> Satrec:
+    from sgp4.api import WGS72, Satrec  # noqa: PLC0415 - a box without satellites does without it
+
     record = Satrec()
     per_day_in_rad_min = math.tau / 1440.0
     record.sgp4init(
@@ -92,8 +96,14 @@ def _record(elements: Elements) -> Satrec:
         math.radians(elements.ascending_node_deg),
     )
     if record.error:
-        raise NotThere(f"{elements.name}: {SGP4_ERRORS.get(record.error, record.error)}")
+        raise _refused(elements.name, record.error)
     return record
+
+
+def _refused(name: str, error: int) -> NotThere:
+    from sgp4.api import SGP4_ERRORS  # noqa: PLC0415 - only a refusal needs them
+
+    return NotThere(f"{name}: {SGP4_ERRORS.get(error, 'its elements give no place')}")
 
 
 def _earth_turned_rad(utc_s: float) -> float:

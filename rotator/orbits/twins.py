@@ -9,7 +9,6 @@ import math
 from collections.abc import Iterable
 from contextlib import suppress
 from itertools import islice
-from statistics import median_low
 
 from rotator.orbits.moments import DAY_S
 from rotator.orbits.satellite import Satellite
@@ -29,7 +28,7 @@ def one_of_each(satellites: Iterable[Satellite]) -> list[Satellite]:
     if not candidates:
         return candidates
     # The moment of most of them: one wrong epoch does not move it.
-    at_s = median_low(each.elements.epoch_utc_s for each in candidates)
+    at_s = sorted(each.elements.epoch_utc_s for each in candidates)[(len(candidates) - 1) // 2]
     around = sorted(candidates, key=lambda each: _on_its_orbit_deg(each, at_s))
     # The first ones again at the end: an orbit is a circle.
     angles_deg = [_on_its_orbit_deg(each, at_s) for each in around]

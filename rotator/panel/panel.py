@@ -223,7 +223,7 @@ def _driven(status: Status) -> bool:
 
 
 def _share(axis: AxisStatus) -> float:
-    """The angle as a share of the range; 0: not known."""
-    if axis.angle_deg is None:
+    """The angle as a share of the range; 0: not known, or no such axis."""
+    if axis.angle_deg is None or not axis.fitted:
         return 0.0
     return min(max((axis.angle_deg - axis.min_deg) / (axis.max_deg - axis.min_deg), 0.0), 1.0)

@@ -114,7 +114,7 @@ VERBS = (
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("pulse", "cw|ccw|up|down", f"Close this relay for {1000 * PULSE_S:g} ms, while the antenna stands"),
-    Verb("point", "AZIMUTH ELEVATION", "Point there"),
+    Verb("point", "AZIMUTH [ELEVATION]", "Point there; without ELEVATION that axis keeps what it has"),
     Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|plan|off]", "Track a satellite, Sun, Moon … from pass to pass"),
     Verb("table", "[LINE]", "One more line of a timed table, the first is t,az,el; alone: forget the lines"),
     Verb("track-table", "NAME", "Track the table of these lines: t in seconds from now, or in UTC"),
@@ -161,8 +161,9 @@ def parse(line: bytes) -> ConsoleCommand:
             return Jog(*TURNS[turn], _seconds(seconds))
         case ["pulse", turn] if turn in TURNS:
             return Pulse(*TURNS[turn])
-        case ["point", azimuth, elevation]:
-            return aim(_degrees(Axis.AZIMUTH, azimuth), _degrees(Axis.ELEVATION, elevation))
+        case ["point", azimuth, *elevation] if len(elevation) <= 1:
+            elevation_deg = _degrees(Axis.ELEVATION, elevation[0]) if elevation else None
+            return aim(_degrees(Axis.AZIMUTH, azimuth), elevation_deg)
         case ["track", *what]:
             return Track(" ".join(what))
         case ["table"]:

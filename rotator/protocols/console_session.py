@@ -124,14 +124,14 @@ class ConsoleSession(LineTalk):
 
 def report(status: Status) -> list[str]:
     """The status as lines `name: value`. Lines without a value are left out."""
-    lines = [f"{axis.value}: {_stands(status, axis)}" for axis in Axis]
+    lines = [f"{axis.value}: {_stands(status, axis)}" for axis in status.fitted]
     wanted_deg = (status.wanted_azimuth_deg, status.wanted_elevation_deg)
     if wanted_deg != (None, None):
         lines.append(
             "wanted: " + " ".join("---" if angle_deg is None else _shown(angle_deg) for angle_deg in wanted_deg)
         )
     if status.moving:
-        lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
+        lines.append("moving: " + " ".join(axis.value for axis in status.fitted if status.axis(axis).moving))
     mover = sender(status.controlled_by, status.controlled_from) if status.controlled_by else "nobody"
     lines.append(f"moved by: {mover}")
     if status.held_by:
@@ -145,9 +145,11 @@ def report(status: Status) -> list[str]:
         what, until = held(storm=status.storm)
         lines.append(f"{what}: {sender(status.latched)}; {until}")
     lines += [f"fault: {fault}" for fault in status.faults]
-    lines += [f"missing: {axis.value} needs {what}" for axis in Axis if (what := status.axis(axis).uncalibrated)]
+    lines += [
+        f"missing: {axis.value} needs {what}" for axis in status.fitted if (what := status.axis(axis).uncalibrated)
+    ]
     lines += [f"note: {notice}" for notice in status.notices]
-    lines += [f"note: {axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
+    lines += [f"note: {axis.value}: {notice}" for axis in status.fitted for notice in status.axis(axis).notices]
     lines += [f"note: {why}" for why in status.stays]
     if status.simulated:
         lines.append("simulated: nothing real turns")
@@ -168,7 +170,9 @@ def tracked(flown: Flown, now_s: float) -> str:
 def _stands(status: Status, axis: Axis) -> str:
     now = status.axis(axis)
     known = now.source.value if now.seen else "when last seen, no reading now"
-    words = ["not known" if now.shown_deg is None else f"{_shown(now.shown_deg)} {known}"]
+    about = "≈ " if now.error_text else ""
+    angle = "" if now.shown_deg is None else f"{about}{_shown(now.shown_deg)}{now.error_text} {known}"
+    words = [angle or "not known"]
     if now.target_deg is not None:
         words.append(f"to {_shown(now.target_deg)}")
     elif now.off_deg is not None:

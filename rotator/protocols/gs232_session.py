@@ -15,6 +15,9 @@ from rotator.protocols.lines import OVERLONG, LineTalk
 from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
+_OF_ELEVATION = ("B", "C2", "W", "U", "D", "E", "O2", "F2")
+"""What a unit without its elevation option does not know. Programs ask `C2` all the same: a link that is not strict
+answers it, with elevation 0."""
 _PLAIN_ORDERS: dict[str, Order] = {
     "R": Jog(Axis.AZIMUTH, Direction.PLUS),
     "L": Jog(Axis.AZIMUTH, Direction.MINUS),
@@ -62,6 +65,7 @@ class Gs232Session(LineTalk):
         self._dialect = dialect
         self._ack = ack
         self._empty_line = empty_line
+        self._as_unit = strict
         self._strict = strict and dialect is Dialect.B
         self._lenient = not strict
         self._may_calibrate = may_calibrate
@@ -107,6 +111,8 @@ class Gs232Session(LineTalk):
         return self._empty_line if command is None else self._obey(command)
 
     def _obey(self, command: Command) -> bytes:
+        if self._as_unit and command.verb in _OF_ELEVATION and not self._box.status().elevation.fitted:
+            return gs232.INVALID
         match command.verb:
             case "C" | "B" | "C2":
                 return self._position(command.verb)

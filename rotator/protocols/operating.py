@@ -185,12 +185,14 @@ def _beyond(order: Order, status: Status) -> str:
         case _:
             return ""
     azimuth, elevation = status.azimuth, status.elevation
-    if azimuth_deg > FULL_TURN_DEG and azimuth_deg > azimuth.max_deg:
+    if azimuth.fitted and azimuth_deg > FULL_TURN_DEG and azimuth_deg > azimuth.max_deg:
         return (
             f"azimuth {azimuth_deg:g}° names a turn beyond the range of {azimuth.min_deg:g}° to {azimuth.max_deg:g}°; "
             f"the same direction is {azimuth_deg % FULL_TURN_DEG:g}°"
         )
     below = elevation_deg < min(0.0, elevation.min_deg)
+    if not elevation.fitted:
+        return ""
     if below or elevation_deg > max(ZENITH_DEG, elevation.max_deg):
         return f"elevation {elevation_deg:g}° is outside the range of {elevation.min_deg:g}° to {elevation.max_deg:g}°"
     return ""

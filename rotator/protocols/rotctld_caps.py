@@ -6,6 +6,7 @@ Knows the status and Hamlib's words for it. Gives no orders: the settings that a
 
 from __future__ import annotations
 
+from hw.ports import Axis
 from rotator import __version__
 from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.rotctld import INVALID_PARAMETER, NOT_AVAILABLE, Answer, BadRequest, number
@@ -33,6 +34,12 @@ _FIXED = {
 }
 """A client may only set the value that the box has already."""
 _SETTINGS = _NO_EFFECT | _FIXED
+_TYPES = {
+    (Axis.AZIMUTH, Axis.ELEVATION): ("AzEl", "Az-El"),
+    (Axis.AZIMUTH,): ("Az", "Azimuth"),
+    (Axis.ELEVATION,): ("El", "Elevation"),
+}
+"""By the axes that the rotor has: Hamlib's names of its type, in the state and among the abilities."""
 _CAPS_HEAD = (
     f"Caps dump for model:\t{_MODEL}",
     "Model name:\t\tGS-232B",
@@ -40,7 +47,8 @@ _CAPS_HEAD = (
     f"Backend version:\t{__version__}",
     "Backend copyright:\tMIT",
     "Backend status:\t\tStable",
-    "Rot type:\t\tAz-El",
+)
+_CAPS_MIDDLE = (
     "Port type:\t\tNone",
     "Write delay:\t\t0mS, timeout 0mS, 0 retries",
     "Post Write delay:\t0mS",
@@ -79,14 +87,14 @@ def limits(status: Status) -> dict[str, float]:
 
     The axes' own, and at least 0 to 360 and 0 to 180 for a rotor with a smaller range: the box itself finds the axis
     angles for every direction. The lowest azimuth is below 0 only if the rotor's is, because CQRLOG takes a negative
-    one for a shifted scale.
+    one for a shifted scale. Of an axis that is not fitted 0 to 0, as Hamlib's own one-axis models have it.
     """
     azimuth, elevation = status.azimuth, status.elevation
     return {
-        "min_az": min(0.0, azimuth.min_deg),
-        "max_az": max(360.0, azimuth.max_deg),
-        "min_el": min(0.0, elevation.min_deg),
-        "max_el": max(180.0, elevation.max_deg),
+        "min_az": min(0.0, azimuth.min_deg) if azimuth.fitted else 0.0,
+        "max_az": max(360.0, azimuth.max_deg) if azimuth.fitted else 0.0,
+        "min_el": min(0.0, elevation.min_deg) if elevation.fitted else 0.0,
+        "max_el": max(180.0, elevation.max_deg) if elevation.fitted else 0.0,
     }
 
 
@@ -102,9 +110,10 @@ def dump_state(status: Status) -> Answer:
     head = (("rotctld Protocol Ver", "1"), ("Rotor Model", f"{_MODEL}"))
     rows = ["1", f"{_MODEL}", *(f"{value:.6f}" for value in angles.values()), "0"]
     rows += [f"{key}={value:.6f}" for key, value in angles.items()]
-    rows += ["south_zero=0", "rot_type=AzEl", "done"]
+    rot_type = f"rot_type={_TYPES[status.fitted][0]}"
+    rows += ["south_zero=0", rot_type, "done"]
     return Answer(
-        records=(*head, *labelled, ("South Zero", "0"), ("", "rot_type=AzEl"), ("", "done")),
+        records=(*head, *labelled, ("South Zero", "0"), ("", rot_type), ("", "done")),
         default_text="".join(row + "\n" for row in rows),
     )
 
@@ -114,6 +123,8 @@ def dump_caps(status: Status) -> Answer:
     angles = limits(status)
     lines = [
         *_CAPS_HEAD,
+        f"Rot type:\t\t{_TYPES[status.fitted][1]}",
+        *_CAPS_MIDDLE,
         f"Min Azimuth:\t\t{angles['min_az']:.2f}",
         f"Max Azimuth:\t\t{angles['max_az']:.2f}",
         f"Min Elevation:\t\t{angles['min_el']:.2f}",
@@ -175,7 +186,7 @@ def status_words(status: Status) -> str:
 
 def _at_ends(axis: AxisStatus) -> tuple[bool, bool]:
     """Whether an axis is at its low end, and whether it is at its high end. Neither while its angle is not known."""
-    if axis.angle_deg is None:
+    if axis.angle_deg is None or not axis.fitted or axis.endless:
         return False, False
     return axis.angle_deg <= axis.min_deg + _AT_END_DEG, axis.angle_deg >= axis.max_deg - _AT_END_DEG
 

@@ -116,7 +116,7 @@ class Addressed(Protocol):
 
 
 @runtime_checkable
-class Beating(Protocol):
+class ClockedSession(Protocol):
     """A session that also works without bytes from its program: it sends unasked, or follows a moving target."""
 
     @property

@@ -46,6 +46,8 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("angle_is_current", "boolean", "false: the angle is the sensor's last good one",
           lambda axis: axis.angle_deg is not None and axis.seen),
     Field("angle_source", "text", '"measured", "counted" or "modelled"', lambda axis: axis.source.value),
+    Field("error_deg", "number or null", "how far an angle reckoned by time may be off; null: lost, or not by time",
+          lambda axis: _angle(axis.error_deg) if isfinite(axis.error_deg or 0.0) else None),
     Field("target_deg", "number or null", "the angle that it turns to",
           lambda axis: _angle(axis.target_deg)),
     Field("ordered_deg", "number or null", "the angle last ordered, also while a fault keeps it from there",
@@ -57,6 +59,8 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
           lambda axis: round(axis.by_itself_dps, 1)),
     Field("drive", "number", "1: driven clockwise or up; -1: the other way; 0: off", lambda axis: int(axis.drive)),
     Field("homing", "boolean", "it looks for its end stop", lambda axis: axis.homing),
+    Field("fitted", "boolean", "the rotor has this axis", lambda axis: axis.fitted),
+    Field("homeable", "boolean", "`rotator home` has an effect", lambda axis: axis.homeable),
     Field("min_deg", "number", "the low end of its range", lambda axis: _angle(axis.min_deg)),
     Field("max_deg", "number", "the high end of its range", lambda axis: _angle(axis.max_deg)),
     Field("fault", "object or null", "the fault that holds it", lambda axis: _fault(axis.fault)),
@@ -111,6 +115,8 @@ FIELDS: Sequence[Field[Status]] = (
     Field("supply_cut", "boolean", "a fault cuts the motors' supply", lambda status: status.cut),
     Field("notes", "list of text", "whose orders have no effect, and why", lambda status: list(status.notices)),
     Field("simulated", "boolean", "nothing real turns", lambda status: status.simulated),
+    Field("orders_wait", "boolean", "the box has an order that shows in the next status, not in this one",
+          lambda status: status.orders_wait),
 )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from dataclasses import replace
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.config.model import Config
+from rotator.control.sky.mount import counted_target
 from rotator.rehearsal.passes import Pass
 from rotator.rehearsal.plants import ArduinoPlant, BoxPlant, Plant
 from rotator.rehearsal.sky_target import SkyTarget
@@ -68,8 +69,11 @@ def fly(
 
     def sample(now_s: float) -> None:
         t_s = now_s - begin_s
-        target_az_deg, target_el_deg = flown.at(t_s)
-        trace.append(Sample(t_s, target_az_deg, target_el_deg, *plant.pointing()))
+        azimuth_deg, elevation_deg, *drives = plant.pointing()
+        target_deg = flown.at(t_s)
+        if target_deg[1] >= 0:  # else it is down, and nothing counts
+            target_deg = counted_target(plant.fitted, (azimuth_deg, elevation_deg), target_deg)
+        trace.append(Sample(t_s, *target_deg, azimuth_deg, elevation_deg, *drives))
 
     clock.every(SAMPLE_S, sample)
     clock.every(1.0, lambda now_s: progress(now_s - begin_s))

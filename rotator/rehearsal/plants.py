@@ -7,11 +7,12 @@ pass that it tracks by itself. Does not know what is recorded, nor how good it w
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Protocol
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
+from hw.ports import Axis
 from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
 from rotator.assembly.simulation import simulated_boom
@@ -48,6 +49,8 @@ class Plant(Protocol):
 
     early_s: float = 0.0
     """How long before the pass the rehearsal begins."""
+    fitted: Collection[Axis] = tuple(Axis)
+    """The axes that it has."""
 
     def begin(self, flown: Pass, begin_s: float) -> None:
         """Give it the pass, which begins at `begin_s`: the whole pass now, or from now on an order each second."""
@@ -105,6 +108,7 @@ class BoxPlant(Plant):
         self.world: SimRotor = station.world
         self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
         self._mount = build_mount(config)
+        self.fitted = config.fitted
         self._boom = simulated_boom(config)
         self._motors = planned_motors(config)
         client = Client(self._loop, self._mount, Source(via), clock=clock)

@@ -1,18 +1,21 @@
-"""Motors on relays, with angles from counted contacts: rotors of the Alliance U-100 kind.
+"""Motors on relays, with angles from counted contacts (rotors of the Alliance U-100 kind), or reckoned by time alone.
 
 Knows when a count is stored, when it is lost, and that a motor starts only after the file marks its axis as moving.
-Does not know how pulses are counted: `hw.sensors.pulses` does.
+Does not know how pulses or time are counted: `hw.sensors.pulses` and `hw.sensors.timed` do.
 """
 
 from __future__ import annotations
 
 import logging
+import math
 import threading
 from collections.abc import Callable, Mapping
 
 from hw.drives.relays import RelayBank
-from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from hw.sensors.pulses import PulseCounter
+from hw.sensors.quadrature import EncoderCounter
+from hw.sensors.timed import TimedAngle
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import unstoppable
 from rotator.control.commands import Command, Errand, Place, Run
@@ -31,24 +34,23 @@ KEEP_EVERY_S = 0.5
 
 
 class CountedAxis:
-    """A pulse counter as an angle sensor, with the reason why its count may be wrong.
+    """A counter of pulses or of time as an angle sensor, with the reason why its count may be wrong.
 
     Two threads use it: the sensor thread reads, and the control thread places. `master`: a relay switches the motors'
     supply. `within_deg`: the possible error of the angle after homing.
     """
 
-    source = AngleSource.COUNTED
-
     def __init__(
         self,
         axis: Axis,
-        counter: PulseCounter,
+        counter: PulseCounter | EncoderCounter | TimedAngle,
         counts_writer: CountsWriter | None,
         clock: Callable[[], float],
         *,
         master: bool = False,
         within_deg: float = 0.0,
     ) -> None:
+        self.source = counter.source
         self._within_deg = within_deg
         self._axis = axis
         self._counter = counter
@@ -73,6 +75,7 @@ class CountedAxis:
                 log.warning("%s must be homed: %s", self._axis.value, self._doubt)
             case counts.Standing.KNOWN:
                 self._place(kept.angle_deg)
+                self._counter.travelled_deg = kept.travelled_deg
             case counts.Standing.NEVER:
                 self._doubt = "not done yet"
             case _:
@@ -87,7 +90,7 @@ class CountedAxis:
     def condition(self, ends: frozenset[Direction], *, supplied: bool = True) -> Condition:
         """`ends`: the directions that a limit switch blocks now. `supplied`: the motors have their supply."""
         with self._lock:
-            why = self._doubt or self._counter.trouble
+            why, error_deg = self._doubt or self._counter.trouble, self._counter.error_deg
             return Condition(
                 fault=self._fault(),
                 lost=why,
@@ -97,6 +100,8 @@ class CountedAxis:
                 ends=ends,
                 ahead=self._counter.ahead,
                 supplied=supplied,
+                error_deg=math.inf if why and error_deg is not None else error_deg,
+                worn=self._counter.worn,
             )
 
     @property
@@ -172,11 +177,11 @@ class CountedAxis:
             return
         if self._counter.at_rest and (self._moved or now_s - self._reported_s >= KEEP_EVERY_S):
             self._reported_s, self._moved = now_s, False
-            self._counts_writer.rests(self._axis, angle_deg)
+            self._counts_writer.rests(self._axis, angle_deg, self._counter.travelled_deg)
 
 
 class CountedRotor(RelayRotor):
-    """`axes`: the axes that count pulses. Another axis has only its sensor in `sensors`."""
+    """`axes`: the axes that count pulses or time. Another axis has only its sensor in `sensors`."""
 
     def __init__(
         self,

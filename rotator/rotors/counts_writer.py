@@ -100,11 +100,11 @@ class CountsWriter:
         """The number of the mark that is still being written, if there is one."""
         return [self._requests[axis]] if self._marks[axis] is Mark.ASKED else []
 
-    def rests(self, axis: Axis, angle_deg: float) -> None:
+    def rests(self, axis: Axis, angle_deg: float, travelled_deg: float = 0.0) -> None:
         """The axis stands at this angle on the rotor's own scale, and its count is right."""
         with self._lock:
             self._new_state(axis, Mark.NONE)
-            self._later(lambda: self._file.rest(axis, angle_deg))
+            self._later(lambda: self._file.rest(axis, angle_deg, travelled_deg))
 
     def lost(self, axis: Axis) -> None:
         """The count of the axis may be wrong. Call this repeatedly: a card may have refused the write."""

@@ -68,7 +68,8 @@ class Client:
 
     def status(self) -> Status:
         """The latest status. Never waits."""
-        return self._loop.status
+        status = self._loop.status
+        return replace(status, orders_wait=True) if self._loop.orders_wait else status
 
     def order(self, order: Order) -> Refusal | None:
         """Hand an order to the control loop, or return why it is refused; the log has the reason then. Never waits."""

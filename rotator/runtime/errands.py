@@ -9,7 +9,7 @@ import logging
 from collections.abc import Iterable
 
 from hw.ports import HardwareError
-from rotator.control.commands import Acknowledge, Errand, Place
+from rotator.control.commands import Acknowledge, Errand, Place, Turns
 from rotator.rotors.port import Rotor
 
 log = logging.getLogger(__name__)
@@ -50,5 +50,7 @@ def _failure(errand: Errand) -> str:
             return f"the fault of {axis.value} is not acknowledged"
         case Place(axis):
             return f"{axis.value} has not taken the angle"
+        case Turns(axis):
+            return f"{axis.value}'s brake may engage while it turns"
         case _:
             return "the motors may still have their torque"

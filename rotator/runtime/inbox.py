@@ -33,6 +33,8 @@ class Inbox:
         self._wake = wake
         self._posted: list[_Posted] = []
         self._lock = threading.Lock()
+        self.posted = 0
+        """How many orders have come since the start."""
 
     def post(self, source: Source, order: Order, *, can_wait: bool) -> None:
         """An order that `can_wait` replaces the waiting ones of its kind from the same source: the newest wins."""
@@ -41,6 +43,7 @@ class Inbox:
             if can_wait:
                 self._posted = [each for each in self._posted if not new.replaces(each)]
             self._posted.append(new)
+            self.posted += 1
         if not can_wait:
             self._wake()
 

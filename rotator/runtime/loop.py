@@ -29,8 +29,8 @@ log = logging.getLogger(__name__)
 
 LATE_PERIODS = 1.5
 """Periods the loop waits for new readings. Then it acts without them, and notices that the sensors are silent."""
-COAST_S = 1.5
-"""Longest wait, in seconds, for a motor that still coasts when the loop ends: the next run needs its count."""
+COAST_S = 3.0
+"""Longest wait, in seconds, for a motor that coasts or brakes when the loop ends: the next run needs its count."""
 SUPPLY, HEARTBEAT, LINKS, PAGE_LOOP = "supply", "heartbeat", "the links", "the page"
 DRIVES = {axis: f"{axis.value} drive" for axis in Axis}
 MUST_OBEY = (SUPPLY, LINKS, *DRIVES.values())
@@ -73,6 +73,8 @@ class ControlLoop:
         self._journal = Journal(clock)
         self._wake = Bell()
         self._inbox = Inbox(self._wake.ring)
+        self._acted_on = 0
+        """How many of the orders that came show in the status."""
         self._sensors = SensorThread(rotor, clock, period_s, self._journal, self._wake.ring)
         self._listeners: list[Callable[[Source, Order], None]] = []
         self._stopping = False
@@ -104,6 +106,11 @@ class ControlLoop:
         """
         self._listeners.append(listener)
 
+    @property
+    def orders_wait(self) -> bool:
+        """Whether an order has come that the status does not know yet."""
+        return self._inbox.posted != self._acted_on
+
     def cycle(self) -> None:
         """Read every sensor, then act: the whole loop in one thread, for simulated time."""
         self._sensors.read_all()
@@ -115,7 +122,7 @@ class ControlLoop:
         Raises HardwareError when the rotor is no longer guarded: nothing may move then.
         """
         self._rotor.check()
-        orders = self._inbox.take()
+        posted, orders = self._inbox.posted, self._inbox.take()
         now_s = self._clock()
         before = self.status
         self._watch_links(now_s)
@@ -138,6 +145,7 @@ class ControlLoop:
         if unkept or failed:
             more = (unkept.text, *failed) if unkept else failed
             self.status = replace(self.status, notices=self.status.notices + more, unkept=unkept)
+        self._acted_on = posted
         self._keeping.look(self.status)
         self._switch_supply()
         self._log(before)

@@ -5,16 +5,17 @@ Knows how to start that process, how to wait for its answer, and how to end it. 
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import resource
 import signal
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+    from multiprocessing.context import SpawnProcess
 
 POLITE = 10
 """The niceness of the process: the control loop comes first."""
@@ -93,7 +94,9 @@ class OwnProcess:
     def _start(self) -> Connection:
         """Raises OSError."""
         # Spawned: a copy of this process would hold its relay lines and sockets.
-        spawn = multiprocessing.get_context("spawn")
+        from multiprocessing import get_context  # noqa: PLC0415 - many a box never has such work
+
+        spawn = get_context("spawn")
         with self._lock:
             if self._closed:
                 raise OSError("the box ends")

@@ -43,6 +43,8 @@ class SensorThread:
         self.failure: Exception | None = None
         """The bug that ended the thread; None: the thread runs."""
         self._rotor = rotor
+        self._since = {axis: each for axis, each in rotor.sensors.items() if isinstance(each, KnowsSince)}
+        """The sensors that know since when their reading holds. Found once: Python takes its time over that."""
         self._clock = clock
         self._period_s = period_s
         self._journal = journal
@@ -99,7 +101,7 @@ class SensorThread:
 
     def _read(self, axis: Axis, sensor: AngleSensor) -> Reading:
         begun_s = self._clock()
-        since_s = sensor.since_s if isinstance(sensor, KnowsSince) else begun_s
+        since_s = self._since[axis].since_s if axis in self._since else begun_s
         raw, trouble = None, ""
         try:
             raw = sensor.read()

@@ -21,6 +21,8 @@ class Block:
     """The pattern of our lines. Other lines inside the marks were added by the user, and stay."""
     last: bool = False
     """The block is at the end of the file; else at its top."""
+    was: str = ""
+    """The beginning of a line inside the marks that stood here before, and comes back; empty: there are none."""
 
     @property
     def begin(self) -> str:
@@ -35,14 +37,16 @@ class Block:
 
         Raises SetupError if only one of the two marks is there.
         """
+        old = self._found.search(text)
         rest = self.without(text)
         if not wanted:
             return rest
-        place = self._place(text)
-        if place is None:
-            place = len(rest) if self.last else 0
-        before, after = rest[:place], rest[place:]
-        line_end = "\r\n" if next(iter(lines(rest)), "").endswith("\r\n") else "\n"
+        place = old.start() if old else len(rest) if self.last else 0
+        return self.between(rest[:place], wanted, rest[place:])
+
+    def between(self, before: str, wanted: Sequence[str], after: str) -> str:
+        """The text with a block of these lines at this place."""
+        line_end = "\r\n" if next(iter(lines(before + after)), "").endswith("\r\n") else "\n"
         block = line_end.join([self.begin, *wanted, self.end])
         if before and not before.endswith("\n"):
             return before + line_end + block
@@ -50,46 +54,31 @@ class Block:
 
     def without(self, text: str) -> str:
         """The text without the block. Raises SetupError if only one of the two marks is there."""
-        kept: list[str] = []
-        line_end = ""
-        inside = False
-        for line in lines(text):
-            match line.strip():
-                case self.begin if not inside:
-                    inside = True
-                    line_end = line[len(line.rstrip("\r\n")) :]
-                case self.end if inside:
-                    inside = False
-                    if not line.endswith("\n") and kept:
-                        kept[-1] = kept[-1].removesuffix(line_end)
-                case self.begin | self.end:
-                    raise self._torn()
-                case bare if inside and self.ours.fullmatch(bare):
-                    continue
-                case _:
-                    kept.append(line)
-        if inside:
+        blocks = list(self._found.finditer(text))
+        rest = self._found.sub(
+            lambda block: "".join(line.removeprefix(self.was) for line in self._strange(block["inside"])), text
+        )
+        if re.search(rf"^[^\S\n]*{re.escape(f'# {self.name}: ')}(begin|end)[^\S\n]*$", rest, re.MULTILINE):
             raise self._torn()
-        return "".join(kept)
+        if blocks and not blocks[-1][0].endswith("\n"):
+            return rest.removesuffix(blocks[-1]["line_end"])
+        return rest
 
     def strangers(self, text: str) -> list[str]:
         """The lines that the user has added inside the marks."""
-        inside = False
-        found = []
-        for line in map(str.strip, lines(text)):
-            if line in (self.begin, self.end):
-                inside = line == self.begin
-            elif inside and not self.ours.fullmatch(line):
-                found.append(line)
-        return found
+        inside = [line for block in self._found.finditer(text) for line in self._strange(block["inside"])]
+        return [line.strip() for line in inside if not (self.was and line.startswith(self.was))]
 
-    def _place(self, text: str) -> int | None:
-        before = 0
-        for line in lines(text):
-            if line.strip() == self.begin:
-                return before
-            before += len(line)
-        return None
+    @property
+    def _found(self) -> re.Pattern[str]:
+        blank = r"[^\S\n]*"
+        begin, end = (rf"^{blank}{re.escape(mark)}" for mark in (self.begin, self.end))
+        return re.compile(
+            rf"{begin}[^\S\r\n]*(?P<line_end>\r*\n)(?P<inside>(?:.*\n)*?){end}{blank}(?:\n|\Z)", re.MULTILINE
+        )
+
+    def _strange(self, inside: str) -> list[str]:
+        return [line for line in lines(inside) if not self.ours.fullmatch(line.strip())]
 
     def _torn(self) -> SetupError:
         return SetupError(

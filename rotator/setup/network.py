@@ -16,13 +16,17 @@ from pathlib import Path
 from rotator.config.links import address, is_this_machine
 from rotator.config.load import parse
 from rotator.config.mistake import ConfigError
-from rotator.config.statements import Place, places, statements
-from rotator.setup.plan import Change, ChangeSet, Files, SetupError, changes
+from rotator.config.statements import Place, statements
+from rotator.setup.blocks import Block
+from rotator.setup.plan import ChangeSet, Content, Files, SetupError, planned
 
-BEGIN, END = "# rotator setup network: begin", "# rotator setup network: end"
-_WAS = "# was: "
-_OURS = re.compile(
-    r'(?:tcp|listen) = "0\.0\.0\.0:\d+"|allow = \["[^"]*"(?:, "[^"]*")?\]|\[\[link\]\]|\[page\]|protocol = "rotctld"|'
+BLOCK = Block(
+    "rotator setup network",
+    re.compile(
+        r'(?:tcp|listen) = "0\.0\.0\.0:\d+"|allow = \["[^"]*"(?:, "[^"]*")?\]|\[\[link\]\]|\[page\]|'
+        r'protocol = "rotctld"|'
+    ),
+    was="# was: ",
 )
 USUAL_PORT = 4533
 ANNOUNCEMENT = Path("etc/avahi/services/rotator.service")
@@ -56,25 +60,23 @@ def plan(files: Files, root: Path, settings: Path, allow: str | None) -> tuple[C
     before = _text(files, settings)
     opened = open_to(before, allow)
     parse(opened.text, str(settings))
-    wanted = [Change(settings, files[settings], opened.text, copied=True)]
+    wanted: dict[Path, Content] = {settings: opened.text}
     notes = []
-    if _has_avahi(root):
-        place = root / ANNOUNCEMENT
-        wanted.append(Change(place, files[place], _SERVICE.format(port=opened.port)))
+    if (root / ANNOUNCEMENT).parent.is_dir():
+        wanted[root / ANNOUNCEMENT] = _SERVICE.format(port=opened.port)
     else:
         notes.append(
             "Avahi is not installed: the PC then needs the address, not the name. "
             "For the name: sudo apt install avahi-daemon, and this command again."
         )
-    return ChangeSet(changes(*wanted), tuple(notes)), opened
+    return planned(files, wanted, [settings], notes), opened
 
 
 def undone(files: Files, root: Path, settings: Path) -> ChangeSet:
     """The changes that take `plan` back. Raises SetupError, ConfigError."""
-    place = root / ANNOUNCEMENT
     text = closed(_text(files, settings))
     parse(text, str(settings))
-    return ChangeSet(changes(Change(settings, files[settings], text, copied=True), Change(place, files[place], None)))
+    return planned(files, {settings: text, root / ANNOUNCEMENT: None}, [settings])
 
 
 def open_to(text: str, allow: str | None) -> Opened:
@@ -85,12 +87,12 @@ def open_to(text: str, allow: str | None) -> Opened:
     number = next((at for at, link in enumerate(config.link) if link.protocol == "rotctld" and link.tcp), None)
     if number is None:
         port = USUAL_PORT
-        text = _appended(text, ["[[link]]", 'protocol = "rotctld"', *_ours("tcp", port, allow)])
+        text = BLOCK.between(text, ["[[link]]", 'protocol = "rotctld"', *_ours("tcp", port, allow)], "")
     else:
         port = address(config.link[number].tcp or "")[1]
         text = _replaced(text, ("link", number), _ours("tcp", port, allow))
-    host, page = address(config.page.listen)
-    if config.page.enabled and is_this_machine(host):
+    _, page = address(config.page.listen)
+    if config.page.enabled and is_this_machine(config.page.listen):
         text = _replaced(text, ("page",), _ours("listen", page, allow))
         _check_page(text, f"0.0.0.0:{page}")
     return Opened(text, port, page if config.page.enabled else None)
@@ -104,36 +106,24 @@ def _check_page(text: str, listen: str) -> None:
     raise SetupError(f'[page] has no heading of its own here: write listen = "{listen}" there, and run this again')
 
 
-def _appended(text: str, lines: list[str]) -> str:
-    rows = text.split("\n")
-    rows += [] if rows[-1] == "" else [""]
-    rows[-1:-1] = [BEGIN, *lines, END]
-    return "\n".join(rows)
-
-
 def _replaced(text: str, table: Place, ours: list[str]) -> str:
     """Our lines in place of the table's own of these keys, which stay as remarks; without such, below its heading."""
-    rows, lines = text.split("\n"), places(text)
-    taken: list[int] = []
-    for key in (ours[0].partition(" = ")[0], "allow"):
-        if given := lines.get((*table, key)):
-            last = next(each.last for each in statements(text) if each.line == given[0])
-            taken += range(given[0] - 1, last)
-    heading = next(
-        (each.line for each in statements(text) if each.brackets and each.line in lines.get(table, ())), None
-    )
+    rows, found = text.split("\n"), statements(text)
+    keys = [(*table, key) for key in (ours[0].partition(" = ")[0], "allow")]
+    taken = [row for each in found if each.place in keys for row in range(each.line - 1, each.last)]
+    heading = next((each.line for each in found if each.heads and each.place == table), None)
     if not taken and heading is None:
         if len(table) > 1:
             raise SetupError(f"this [[link]] has no heading of its own here: write {ours[0]} there, or give it one")
-        return _appended(text, [f"[{table[0]}]", *ours])
+        return BLOCK.between(text, [f"[{table[0]}]", *ours], "")
     first = min(taken, default=heading or 0)
     end = "\r" if rows[min(first, len(rows) - 1)].endswith("\r") else ""
     result: list[str] = []
     done = 0
     # Lines apart from each other get marks of their own, so that each goes back to its place.
     for run in _runs(taken) or [range(first, first)]:
-        was = [_WAS + row for row in rows[run.start : run.stop]]
-        result += [*rows[done : run.start], BEGIN + end, *was, *(line + end for line in ours), END + end]
+        was = [BLOCK.was + row for row in rows[run.start : run.stop]]
+        result += [*rows[done : run.start], BLOCK.begin + end, *was, *(line + end for line in ours), BLOCK.end + end]
         ours, done = [], run.stop
     return "\n".join([*result, *rows[done:]])
 
@@ -151,22 +141,10 @@ def _runs(numbers: Iterable[int]) -> list[range]:
 
 def closed(text: str) -> str:
     """The text as it was before. Raises SetupError where a person has changed what stands between the marks."""
-    kept: list[str] = []
-    inside = False
-    for row in text.split("\n"):
-        bare = row.rstrip("\r")
-        match bare:
-            case _ if bare == (END if inside else BEGIN):
-                inside = not inside
-            case _ if not inside:
-                kept.append(row)
-            case _ if bare.startswith(_WAS):
-                kept.append(row.removeprefix(_WAS))
-            case _ if not _OURS.fullmatch(bare):
-                raise SetupError(f'"{bare}" between the marks of `rotator setup network` is yours: change it by hand')
-    if inside:
-        raise SetupError(f'the mark "{END}" is missing: put it behind the link, or take "{BEGIN}" out')
-    return "\n".join(kept)
+    rest = BLOCK.without(text)
+    if yours := BLOCK.strangers(text):
+        raise SetupError(f'"{yours[0]}" between the marks of `rotator setup network` is yours: change it by hand')
+    return rest
 
 
 def allowed(network: str) -> str:
@@ -176,10 +154,6 @@ def allowed(network: str) -> str:
 
 def _ours(key: str, port: int, allow: str | None) -> list[str]:
     return [f'{key} = "0.0.0.0:{port}"', *([allowed(allow)] if allow else [])]
-
-
-def _has_avahi(root: Path) -> bool:
-    return (root / ANNOUNCEMENT).parent.is_dir()
 
 
 def _text(files: Files, path: Path) -> str:

@@ -7,13 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from functools import cache
 
-from rotator.config.keys import describe
+from rotator.config.keys import describe, tables
 from rotator.config.load import shipped
-from rotator.config.model import Config
 from rotator.config.statements import statements
-from rotator.config.wording import tables
 from rotator.setup.network import allowed
 from rotator.setup.questions import NETWORK_PROGRAM, NONE_YET, ON_THIS_MACHINE, TURNS, UDP, USB_CABLE
 
@@ -106,16 +103,16 @@ def _link(whose: str, protocol: str, *rows: str) -> str:
 
 def _commented(text: str) -> str:
     """Each key without a remark gets the first sentence of its meaning."""
-    _describe()
-    models = {name: model for name, model, _ in tables()}
+    describe()
     rows = text.split("\n")
-    table = ""
+    table: list[str] = []
     found = []
     for statement in statements(text):
-        if statement.brackets:
-            table = ".".join(statement.keys)
-        elif statement.keys and statement.line == statement.last and "#" not in rows[statement.line - 1]:
-            field = models[table].model_fields.get(statement.keys[0])
+        names = [part for part in statement.place if isinstance(part, str)]
+        if statement.heads:
+            table = names
+        elif statement.line == statement.last and "#" not in rows[statement.line - 1]:
+            field = tables()[".".join(table)].model.model_fields.get(names[len(table)])
             if field and field.description:
                 found.append((statement.line - 1, _first_sentence(field.description)))
     for at, remark in reversed(found):
@@ -124,11 +121,6 @@ def _commented(text: str) -> str:
         else:
             rows.insert(at, f"# {remark}")
     return "\n".join(rows)
-
-
-@cache
-def _describe() -> None:
-    describe(Config)
 
 
 def _first_sentence(text: str) -> str:

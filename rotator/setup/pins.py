@@ -16,7 +16,7 @@ from rotator.setup import boot_config
 from rotator.setup.blocks import Block
 from rotator.setup.boot_config import Setting
 from rotator.setup.pi import Pi
-from rotator.setup.plan import Change, ChangeSet, Files, SetupError, changes
+from rotator.setup.plan import ChangeSet, Files, SetupError, planned
 
 STRICT, I2C, SPI = "dtparam=strict_gpiod", "dtparam=i2c_arm=on", "dtparam=spi=on"
 BLOCK = Block(
@@ -36,7 +36,7 @@ PULLED_UP = range(9)
 
 def off_lines(config: Config) -> dict[int, OffLine]:
     """Each line that must be off while the Pi starts, by GPIO."""
-    return {line.pin: line for line in config.kind.off_lines()}
+    return {line.pin: line for line in config.off_lines()}
 
 
 def off_levels(config: Config) -> dict[int, str]:
@@ -57,23 +57,13 @@ def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) ->
     _keep_off_the_buses(config, others)
     wanted = _missing(config, others)
     i2c_dev = _I2C_DEV if _uses_header_i2c(config) else None
-    module = root / I2C_MODULE
-    return ChangeSet(
-        changes(
-            Change(boot, before, BLOCK.into(before, ["[all]", *wanted] if wanted else []), copied=True),
-            Change(module, files[module], i2c_dev),
-        ),
-        tuple(_pulls(config)),
-    )
+    text = BLOCK.into(before, ["[all]", *wanted] if wanted else [])
+    return planned(files, {boot: text, root / I2C_MODULE: i2c_dev}, [boot], _pulls(config))
 
 
 def undone(files: Files, root: Path, boot: Path) -> ChangeSet:
     """The changes that remove the lines of `plan`, and no others."""
-    before = str(files[boot] or "")
-    module = root / I2C_MODULE
-    return ChangeSet(
-        changes(Change(boot, before, BLOCK.without(before), copied=True), Change(module, files[module], None)),
-    )
+    return planned(files, {boot: BLOCK.without(str(files[boot] or "")), root / I2C_MODULE: None}, [boot])
 
 
 def _uses_header_i2c(config: Config) -> bool:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -46,9 +46,14 @@ class ChangeSet:
     """Sentences that the user should read before agreeing."""
 
 
-def changes(*wanted: Change) -> tuple[Change, ...]:
-    """The changes with different contents before and after."""
-    return tuple(change for change in wanted if change.before != change.after)
+def planned(
+    files: Files, wanted: Mapping[Path, Content], copied: Collection[Path], notes: Iterable[str] = ()
+) -> ChangeSet:
+    """The changes that make the files what is wanted. `copied`: those that belong to the user or to the system."""
+    different = {path: after for path, after in wanted.items() if files[path] != after}
+    return ChangeSet(
+        tuple(Change(path, files[path], after, path in copied) for path, after in different.items()), tuple(notes)
+    )
 
 
 def lines(text: str) -> list[str]:

@@ -19,21 +19,29 @@ Answers = Mapping[str, str]
 
 ROTORS = (
     Choice("g5500", "Yaesu G-5500, G-5400 and the like, on their control box"),
+    Choice("g450", "azimuth alone, on its control box: Yaesu G-450, G-650 and the like"),
     Choice("f1efw", "another rotor with a pot on each axis, on four relays"),
     Choice("spid", "360° × 180° like a Spid, with pots put in"),
     Choice("u100", "TV rotors that count contacts (Alliance U-100)"),
     Choice("isel", "two moteus controllers (ISEL's rotary axes)"),
     Choice("servos", "two hobby servos on a PCA9685"),
     Choice("orbit360", "control boxes with a knob (ORBIT-360), a digital pot in its place"),
+    Choice("slew-drive", "a slew drive or other DC motors: H-bridges, encoders with two channels"),
+    Choice("ham4", "azimuth alone, with a wedge brake: Ham IV, T2X and the like"),
+    Choice("controller", "a ready-made controller with a serial port or on the network"),
+    Choice("tv-rotator", "a TV rotator from which nothing comes back"),
+    Choice("satnogs", "two steppers on TMC5160 chips (SatNOGS v3)"),
+    Choice("g1000", "azimuth alone, with a speed input: Yaesu G-800, G-1000, G-2800"),
 )
 """The shipped configurations for real rotors."""
 _SHIPPED = {
-    "g5500": (
-        r"(yaesu|kenpro)?[gk]r?s?5[456]00(dc|ac|a|b)?",
+    "g5500": (r"(yaesu|kenpro)?[gk]r?s?5[456]00(dc|ac|a|b)?",),
+    "g1000": (r"(yaesu|kenpro)?gr?(800|1000|2800)(sdx|dx[ac])?",),
+    "g450": (
         r"(yaesu|kenpro)?[gk]r?s?(400|450|500|550|600|650|800|1000|2000|2700|2800)(rc|sdx|dxa|dxc|xl|sa|a|c|dc)?",
     ),
+    "ham4": (r"(cde|hygain|cd)?ham(ii|iii|iv|v|[2345m])?|t2x|tailtwister|cd(e|44|45)?(ii)?",),
     "f1efw": (
-        r"(cde|hygain|cd)?ham(ii|iii|iv|v|[2345m])?|t2x|tailtwister|cd(e|44|45)?(ii)?",
         r"(cde|hygain)?ar(20|22|30|33|35|40)x?[lx]?l?",
         r"f1efw|arduino|sketch|relays?|pots?|relaypots?|potentiometer",
         r"(create)?rc5\w*|emotator\w*|prosistel\w*|pst\d+\w*|(alliance)?hd73|kr\d+\w*",
@@ -43,14 +51,31 @@ _SHIPPED = {
         r"(m2)?(orion)?(or|rc)?2800(px|pdc|g)?|orion|m2",
         r"(alliance)?[ut]1[01]0|alliance|ko6th|relaypulses?|pulses?|counter|reed|hall",
     ),
+    "tv-rotator": (r"tv\w*|(channelmaster)?95\d\dw?|relaytimed|timed|blind|nofeedback", r"(rca)?vh\d+\w*"),
     "orbit360": (r"orbit(360)?|aa2tx|mcp410\d\d|digitalpot|digipots?",),
+    "controller": (
+        r"controllers?|gs232[ab]?|erc\w*|k3ng|md0[12]|rot[12]prog|dcu1?|rt21|arco|satnogs|easycomm\w*|hamlib",
+    ),
     "isel": (r"isel|mjbots|moteus\w*|canfd",),
+    "slew-drive": (
+        r"se\d+[a-z]?|wds?e\d*|slew(ing)?(drive)?s?|hbridges?|dcmotors?|quadrature|l298n?|vnh\w*|tb6612\w*",
+    ),
+    "satnogs": (r"satnogs(v?3\w*)?|(tmc)?51[36]0\w*|steppers?|nema\d*",),
     "servos": (r"(sg|mg|ds|hs)\d+\w*|hobbyservos?|servos|pca9685",),
 }
 """By shipped file: what radio amateurs call their rotors, in small letters without spaces and signs. The first that
 fits counts."""
-ON_RELAYS = ("g5500", "f1efw", "spid", "u100")
-TURNS = {"g5500": ("450", "180"), "f1efw": ("360", "90"), "spid": ("360", "180"), "u100": ("360", "180")}
+TURNS: Mapping[str, tuple[str, ...]] = {
+    "g5500": ("450", "180"),
+    "g450": ("450",),
+    "g1000": ("450",),
+    "ham4": ("360",),
+    "f1efw": ("360", "90"),
+    "spid": ("360", "180"),
+    "u100": ("360", "180"),
+    "tv-rotator": ("360",),
+}
+"""Of the rotors on relays: the degrees of azimuth, and of elevation where they have it."""
 
 NETWORK_PROGRAM, NONE_YET = "rotctld", "none"
 PROGRAMS = (
@@ -80,16 +105,17 @@ def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
         (Choice("sim", "not yet: simulate it"), Choice("pi", "yes, this is the Raspberry Pi")),
     )  # fmt: skip
     rotor = answers.get("rotor", "")
-    if rotor in ON_RELAYS:
-        azimuth, elevation = TURNS[rotor]
+    if rotor in TURNS:
+        azimuth, *elevation = TURNS[rotor]
         yield Question(
             "azimuth", "How many degrees does azimuth turn, from stop to stop?",
             "360, or 450 for a rotor with overlap. The box never turns beyond.", azimuth, (), _degrees(90, 720, "360"),
         )  # fmt: skip
-        yield Question(
-            "elevation", "How many degrees does elevation turn?",
-            "90, or 180 for a rotor that goes over the top.", elevation, (), _degrees(20, 200, "90"),
-        )  # fmt: skip
+        if elevation:
+            yield Question(
+                "elevation", "How many degrees does elevation turn?",
+                "90, or 180 for a rotor that goes over the top.", elevation[0], (), _degrees(20, 200, "90"),
+            )  # fmt: skip
     yield Question(
         "program", "Which program turns the antenna?",
         "One is enough to begin; a [[link]] more for each other. `rotator help programs` lists them all.",

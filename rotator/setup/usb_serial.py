@@ -7,6 +7,7 @@ the same USB controller. `gadget` builds the USB device. Works on texts and writ
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from rotator.config.load import ConfigError, parse
 from rotator.setup import boot_config
 from rotator.setup.blocks import Block
 from rotator.setup.pi import Pi
-from rotator.setup.plan import Change, ChangeSet, Content, Files, Link, SetupError, changes
+from rotator.setup.plan import ChangeSet, Content, Files, Link, SetupError, planned
 
 OVERLAY = "dtoverlay=dwc2,dr_mode=peripheral"
 BLOCK = Block("rotator setup usb-serial", re.compile(r"\[all\]|" + re.escape(OVERLAY)))
@@ -61,6 +62,13 @@ class Places:
     def command_line(self) -> Path:
         return self.boot_config.with_name("cmdline.txt")
 
+    def planned(
+        self, files: Files, boot: str, ours: Mapping[Path, Content], settings: Content, notes: Iterable[str]
+    ) -> ChangeSet:
+        """The changes of these files. `ours`: the files of this set-up, by their path below the root."""
+        wanted = {self.boot_config: boot, **{self.root / path: content for path, content in ours.items()}}
+        return planned(files, wanted | {self.settings: settings}, (self.boot_config, self.settings), notes)
+
 
 def unit(command: str, usb_id: str) -> str:
     """The text of the systemd unit. `command` starts `rotator`, quoted for systemd."""
@@ -99,31 +107,22 @@ def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: s
     settings, remark = _link_added(_text(files, places.settings) if files[places.settings] is not None else None)
     ours: dict[Path, Content] = {UNIT: unit(command, usb_id), WANTED: Link(f"/{UNIT}")}
     ours |= dict.fromkeys(GETTYS, _NO_GETTY)
-    wanted = changes(
-        Change(places.boot_config, before, boot_text(before, pi), copied=True),
-        *(Change(places.root / path, files[places.root / path], content) for path, content in ours.items()),
-        Change(places.settings, files[places.settings], settings, copied=True),
-    )
     notes = [
         f"The port is {pi.socket} of this {pi.model}. {pi.power}",
         "Afterwards no keyboard, network adapter or stick works at that socket.",
     ]
     if remark:
         notes.append(f"{places.settings}: {remark}")
-    return ChangeSet(wanted, tuple(notes))
+    return places.planned(files, boot_text(before, pi), ours, settings, notes)
 
 
 def undone(files: Files, places: Places) -> ChangeSet:
     """The changes that remove the lines and files of `plan`, and no others."""
-    before = _text(files, places.boot_config)
     text = _text(files, places.settings) if files[places.settings] is not None else None
     settings, remark = _link_taken_out(text)
-    wanted = changes(
-        Change(places.boot_config, before, BLOCK.without(before), copied=True),
-        *(Change(places.root / path, files[places.root / path], None) for path in (WANTED, UNIT, *GETTYS)),
-        Change(places.settings, files[places.settings], settings, copied=True),
-    )
-    return ChangeSet(wanted, (f"{places.settings}: {remark}",) if remark else ())
+    ours: dict[Path, Content] = dict.fromkeys((WANTED, UNIT, *GETTYS))
+    notes = [f"{places.settings}: {remark}"] if remark else []
+    return places.planned(files, BLOCK.without(_text(files, places.boot_config)), ours, settings, notes)
 
 
 def boot_text(text: str, pi: Pi) -> str:

@@ -1,4 +1,4 @@
-"""The file with the angles of the axes that count pulses: without it the count is lost at power-off.
+"""The file with the angles of the axes that count pulses, or are reckoned by time: lost at power-off without it.
 
 Knows the file's form, and when an angle is written. The file marks an axis as moving before the axis moves. After a
 power cut during a move the mark remains, and the axis is lost. Does not know how pulses are counted.
@@ -14,7 +14,7 @@ import json
 import math
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,9 @@ FILE_NAME = "counts.json"
 FORM = Form("rotator counts")
 WIDEST_DEG = 1000.0
 """Degrees: no rotor turns further. The rotor's own, narrower range is checked when the count is used."""
+
+FURTHEST_DEG = 1e9
+"""Degrees: no rotor turns so far in its life."""
 
 
 class Standing(Enum):
@@ -46,6 +49,10 @@ class Place:
 
     standing: Standing
     angle_deg: float = math.nan
+    travelled_deg: float = 0.0
+    """How far an axis that is reckoned by time has turned since it was at its end stop."""
+    mid_move: bool = field(default=False, compare=False)
+    """LOST because the program ended in mid-move: a chip that counts without it knows more."""
 
 
 CamSettings = Mapping[str, object]
@@ -70,6 +77,8 @@ def _content(places: Mapping[Axis, Place], cams: Mapping[Axis, CamSettings]) -> 
             axes[axis.value] = {"cam": dict(cams[axis]), "standing": place.standing.value}
         if place.standing is Standing.KNOWN:
             axes[axis.value]["angle_deg"] = place.angle_deg
+        if place.travelled_deg:
+            axes[axis.value]["travelled_deg"] = place.travelled_deg
     return {"axes": axes, "check": _check(axes)}
 
 
@@ -86,15 +95,20 @@ def _parse(content: dict[str, Any], cams: Mapping[Axis, CamSettings]) -> dict[Ax
     return {axis: _place(tables[axis.value], cam) if axis.value in tables else NEVER for axis, cam in cams.items()}
 
 
-def _known(angle_deg: float) -> Place:
-    """In thousandths of a degree, which are finer than any contact: a digit more would only be another write."""
-    return Place(Standing.KNOWN, round(angle_deg, 3))
+def _known(angle_deg: float, travelled_deg: float = 0.0) -> Place:
+    """In thousandths of a degree, which are finer than any contact: a digit more would only be another write. Only an
+    axis without ends gets beyond the widest range, and one turn is as good as another there."""
+    if abs(angle_deg) > WIDEST_DEG:
+        angle_deg %= 360.0
+    return Place(Standing.KNOWN, round(angle_deg, 3), round(travelled_deg, 3))
 
 
 def _place(table: Mapping[str, Any], cam: CamSettings) -> Place:
-    if Standing(table["standing"]) is not Standing.KNOWN or table["cam"] != dict(cam):
-        return LOST
-    return Place(Standing.KNOWN, number(table["angle_deg"], "an angle", -WIDEST_DEG, WIDEST_DEG))
+    standing, same = Standing(table["standing"]), table["cam"] == dict(cam)
+    if standing is not Standing.KNOWN or not same:
+        return Place(Standing.LOST, mid_move=same and standing is Standing.MOVING)
+    travelled_deg = number(table.get("travelled_deg", 0.0), "a way", 0.0, FURTHEST_DEG)
+    return Place(Standing.KNOWN, number(table["angle_deg"], "an angle", -WIDEST_DEG, WIDEST_DEG), travelled_deg)
 
 
 class CountsFile:
@@ -108,8 +122,8 @@ class CountsFile:
         self._file = JsonFile(path, FORM, "the count", one_block=True)
         self._cams = cams
         self._written: dict[Axis, Place] = dict.fromkeys(cams, NEVER)
-        self._stood: dict[Axis, float] = {}
-        """The angle of each axis at rest."""
+        self._stood: dict[Axis, Place] = {}
+        """The place of each axis at rest."""
         self._doubted: set[Axis] = set()
         """The axes whose count may be wrong. The file may not show it yet: a card may have refused the write."""
 
@@ -145,12 +159,11 @@ class CountsFile:
         self._stood.pop(axis, None)
         self._doubted.discard(axis)
         if not self._write(axis, _known(angle_deg)):
-            self._stood[axis] = angle_deg  # the next `rest`, or `close`, tries again
+            self._stood[axis] = _known(angle_deg)  # the next `rest`, or `close`, tries again
 
-    def rest(self, axis: Axis, angle_deg: float) -> None:
+    def rest(self, axis: Axis, angle_deg: float, travelled_deg: float = 0.0) -> None:
         """The axis stands at this angle, and its count is right. Writes it, if the file does not have it."""
-        self._stood[axis] = angle_deg
-        place = _known(angle_deg)
+        place = self._stood[axis] = _known(angle_deg, travelled_deg)
         if place != self._written[axis] or self._file.trouble or self._file.changed:
             self._write(axis, place)
 
@@ -158,8 +171,8 @@ class CountsFile:
         """The box ends: write each angle at rest, and each doubt, that a card has refused."""
         for axis in self._doubted:
             self.lose(axis)
-        for axis, angle_deg in self._stood.items():
-            self.rest(axis, angle_deg)
+        for axis, place in self._stood.items():
+            self.rest(axis, place.angle_deg, place.travelled_deg)
 
     def _write(self, axis: Axis, place: Place) -> bool:
         places = self._written | {axis: place}

@@ -17,7 +17,7 @@ from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orbits.targets import Fixed, find, fixed
+from rotator.orbits.targets import Fixed, and_path, find, fixed
 from rotator.orbits.twins import one_of_each
 from rotator.tracking.next_flight import Wanted
 
@@ -69,6 +69,15 @@ class KnownSky:
             with suppress(NotThere):
                 found.append(Satellite(elements, self.site.without_air))
         return one_of_each(found)
+
+    def place(self, words: str) -> Fixed | None:
+        """A locator, or the middle of a country, by the short path; None: the words name something else, or a path."""
+        if self.site is None or and_path(words)[1]:
+            return None
+        with suppress(Unknown, NotThere):
+            found = find(words, self.site, self._catalogue)
+            return found if isinstance(found, Fixed) and found.place else None
+        return None
 
     def find(self, words: str) -> Wanted | Aim:
         """A target that moves, or a fixed direction. Raises Unknown, NotThere."""

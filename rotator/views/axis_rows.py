@@ -19,7 +19,7 @@ from rotator.control.sky.mount import Mount
 from rotator.exchange.status import AxisStatus, Status
 from rotator.views.frame import Row
 from rotator.views.sky_plot import ANTENNA_STYLE, TARGET_STYLE
-from rotator.views.words import ALARMS, TURNS, by_itself, degrees
+from rotator.views.words import ALARMS, TURNS, by_itself, degrees, stands
 
 WIDE = 60
 """Cells: at this width or more, the numbers stand beside the bars."""
@@ -37,7 +37,7 @@ class Ranks:
 
 
 def axis_rows(status: Status, mount: Mount | None, width: int, ranks: Ranks) -> Iterator[Row]:
-    for axis in Axis:
+    for axis in status.fitted:
         each = status.axis(axis)
         if width >= WIDE:
             yield from _wide(axis, each, _bar(status, axis, mount, width - _NUMBERS - _LAMPS - 2), ranks)
@@ -59,17 +59,17 @@ def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]
     # An angle that is not measured now must never look as if it were.
     worth_rank = ranks.bars if each.seen else ranks.numbers
     rows = (
-        (axis.value, each.shown_deg, _filled(bar, each), Text.assemble(one, " ", other), ranks.numbers),
+        (axis.value, stands(each), _filled(bar, each), Text.assemble(one, " ", other), ranks.numbers),
         (
             "target",
-            each.ordered_deg,
+            degrees(each.ordered_deg),
             bar.filled_to(each.ordered_deg, TARGET_STYLE, names=True),
             _worth(each),
             worth_rank,
         ),
     )
-    for name, angle_deg, filled, beside, row_rank in rows:
-        text = Text(f"{name:<9} {degrees(angle_deg):>7} ", style="bold" if name == axis.value else "")
+    for name, angle, filled, beside, row_rank in rows:
+        text = Text(f"{name:<9} {angle:>7} ", style="bold" if name == axis.value else "")
         yield Row(Text.assemble(text, "▕", filled, "│ ", beside), row_rank)
     off = Text(f"{'off by':<9} {degrees(each.off_deg, sign=True) if each.ordered_deg is not None else '':>7} ")
     if stray := by_itself(axis, each):
@@ -88,7 +88,7 @@ def _in_a_row(axis: Axis, each: AxisStatus, width: int) -> Text:
     """An axis in one row, with what its angle is worth; in shorter words where they do not fit."""
     text = Text()
     for off, short in (("off ", False), ("", False), ("", True)):
-        text = Text(f"{'az' if axis is Axis.AZIMUTH else 'el'} {degrees(each.shown_deg)}", style="bold")
+        text = Text(f"{'az' if axis is Axis.AZIMUTH else 'el'} {stands(each)}", style="bold")
         if stray := by_itself(axis, each):
             text.append(" ").append(stray, style=ALARMS)
         elif each.seen and each.ordered_deg is not None:
@@ -96,7 +96,7 @@ def _in_a_row(axis: Axis, each: AxisStatus, width: int) -> Text:
         if each.drive is not Direction.OFF:
             text.append(f" {TURNS[axis, each.drive]}", style="bold green")
         worth = _worth(each)
-        if short and each.seen:
+        if short and each.seen and not each.error_text:
             worth.plain = f"{worth.plain[:4]}."
         text.append(" ").append_text(worth)
         if text.cell_len <= width:
@@ -105,7 +105,9 @@ def _in_a_row(axis: Axis, each: AxisStatus, width: int) -> Text:
 
 
 def _worth(each: AxisStatus) -> Text:
-    """What the angle is worth: measured, counted, or what it was when the sensor was last heard."""
+    """What the angle is worth: measured, counted, how far off, or what it was when the sensor was last heard."""
+    if each.seen and each.error_text:
+        return Text(each.error_text.strip(), style="dim")
     if each.seen:
         return Text(each.source.value, style="dim")
     return Text("no signal") if each.shown_deg is None else Text("last seen", style=ALARMS)
@@ -124,7 +126,7 @@ def _bar(status: Status, axis: Axis, mount: Mount | None, cells: int) -> Bar:
 def _forbidden(status: Status, axis: Axis, mount: Mount | None) -> Iterator[Zone]:
     """The forbidden zones of this axis at the present angle of the other one."""
     other = status.axis(Axis.ELEVATION if axis is Axis.AZIMUTH else Axis.AZIMUTH).angle_deg
-    for sector in mount.sectors if mount else ():
+    for sector in mount.about(0.0).sectors if mount else ():
         here, there = sector.azimuth, sector.elevation
         if axis is Axis.ELEVATION:
             here, there = there, here

@@ -5,6 +5,8 @@ Knows the layout, and the notices that replace the upper row in turn. Does not k
 
 from __future__ import annotations
 
+from math import ceil, isfinite
+
 from hw.ports import Axis
 from rotator.exchange.orders import Mode
 from rotator.exchange.spoken import short_sender
@@ -19,15 +21,21 @@ _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
 
 
 def rows(status: Status, now_s: float, code: str = "") -> tuple[str, str]:
-    """`SAT A:235 E:025` over `ANT A:231 E:024`; SIM in place of ANT when the rotor is simulated.
+    """`SAT A:235 E:025` over `ANT A:231 E:024`; SIM in place of ANT when the rotor is simulated. With one axis alone
+    its angle stands there alone.
+
+    Where an angle is reckoned by time, `+/- A:006 E:004` takes turns with the lower row: how far it may be off.
 
     With a mode switch its letter follows: A, M, J or P. If it is not at AUTO, a notice says so.
 
     `code`: the code that pairs a browser now. It takes the upper row, and only faults alternate with it.
     """
     name = "SIM" if status.simulated else "ANT"
-    upper = f"SAT A:{_azimuth(status.wanted_azimuth_deg)} E:{_elevation(status.wanted_elevation_deg)}"
-    lower = f"{name} A:{_azimuth(status.azimuth.points_deg)} E:{_elevation(status.elevation.points_deg)}"
+    upper = " ".join(["SAT", *(_NUMBER[axis](status.wanted_deg(axis)) for axis in status.fitted)])
+    lower = " ".join([name, *(_NUMBER[axis](status.axis(axis).points_deg) for axis in status.fitted)])
+    if any(status.axis(axis).error_deg for axis in Axis) and int(now_s / ALTERNATE_S) % 2:
+        errors = [f"{_SHORT[axis][0]}:{_error(status.axis(axis).error_deg)}" for axis in status.fitted]
+        lower = " ".join(["+/-", *errors])
     notices = _notices(status)
     if code:
         upper = f"PAIR CODE {code}"
@@ -49,11 +57,11 @@ def _notices(status: Status) -> list[str]:
         notices.append(status.unkept.lcd)
     if status.mode is not Mode.AUTO:
         notices.append(f"MODE {status.mode.name}")
-    for axis in Axis:
+    for axis in status.fitted:
         if missing := status.axis(axis).missing:
             notices.append(f"{_SHORT[axis]} {missing[0].lcd}")
     # A notice without a text for the LCD is only in the log.
-    for axis in Axis:
+    for axis in status.fitted:
         notices += [f"{_SHORT[axis]} {notice.lcd}" for notice in status.axis(axis).notices if notice.lcd]
     if status.flown is not None:
         when = rise_or_set(status.flown, status.at_s)
@@ -63,9 +71,17 @@ def _notices(status: Status) -> list[str]:
     return list(dict.fromkeys(notices))
 
 
+def _error(error_deg: float | None) -> str:
+    """How far an angle may be off, rounded up; `---`: it is lost."""
+    return f"{ceil(error_deg or 0.0):03d}" if isfinite(error_deg or 0.0) else "---"
+
+
 def _azimuth(angle_deg: float | None) -> str:
-    return "---" if angle_deg is None else f"{bearing(angle_deg):03d}"
+    return "A:---" if angle_deg is None else f"A:{bearing(angle_deg):03d}"
 
 
 def _elevation(angle_deg: float | None) -> str:
-    return "---" if angle_deg is None else f"{whole(angle_deg):03d}"
+    return "E:---" if angle_deg is None else f"E:{whole(angle_deg):03d}"
+
+
+_NUMBER = {Axis.AZIMUTH: _azimuth, Axis.ELEVATION: _elevation}

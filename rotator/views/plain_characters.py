@@ -5,7 +5,10 @@ Knows characters. Does not know the picture. The console of a Raspberry Pi, for 
 
 from __future__ import annotations
 
-from rich.text import Text
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 _ASCII = str.maketrans(
     {
@@ -15,7 +18,7 @@ _ASCII = str.maketrans(
         **dict.fromkeys("▏▎", "."),
         **dict.fromkeys("▍▌▋", ":"),
         **dict.fromkeys("▊▉█", "#"),
-        **dict(zip("░▒●○◆◇◈→…–—✓✗", ":x*.#o@>~--vx", strict=True)),
+        **dict(zip("░▒●○◆◇◈→…–—✓✗≈", ":x*.#o@>~--vx~", strict=True)),
         **{chr(code): "." for code in range(0x2801, 0x2900)},
     }
 )

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from hw.ports import Axis, Direction
 from rotator.exchange.status import AxisStatus, Status
-from rotator.views.words import TURNS, WireView, degrees, notes, stopped_by
+from rotator.views.words import TURNS, WireView, degrees, notes, stands, stopped_by
 
 
 def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
@@ -20,7 +20,7 @@ def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str
 
 def line(status: Status) -> str:
     """The status in one line. It has no time and no counter, so equal lines mean that nothing has changed."""
-    parts = [_axis(status, axis) for axis in Axis]
+    parts = [_axis(status, axis) for axis in status.fitted]
     if status.mode_switch:
         parts.append(f"mode {status.mode.name}")
     if status.latched:
@@ -32,7 +32,7 @@ def line(status: Status) -> str:
 
 def farewell(status: Status) -> str:
     """The state in which the box has ended."""
-    places = [f"{axis.value} {_last(status.axis(axis))}" for axis in Axis]
+    places = [f"{axis.value} {_last(status.axis(axis))}" for axis in status.fitted]
     lines = [f"The box has ended and turns nothing any more. The antenna is at {', '.join(places)}."]
     return "\n".join([*lines, *(f"FAULT {fault}" for fault in status.faults)])
 
@@ -40,12 +40,12 @@ def farewell(status: Status) -> str:
 def _last(axis: AxisStatus) -> str:
     if axis.shown_deg is None:
         return "unknown"
-    return degrees(axis.shown_deg) + ("" if axis.seen else " (last seen)")
+    return stands(axis) + axis.error_text + ("" if axis.seen else " (last seen)")
 
 
 def _axis(status: Status, axis: Axis) -> str:
     each = status.axis(axis)
-    words = [f"{axis.value} {degrees(each.shown_deg, 0)}"]
+    words = [f"{axis.value} {stands(each, 0)}{each.error_text}"]
     if not each.seen and each.shown_deg is not None:
         words.append("LAST SEEN")
     if each.target_deg is not None:

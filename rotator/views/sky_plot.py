@@ -12,12 +12,14 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from itertools import groupby
-
-from rich.text import Text
+from typing import TYPE_CHECKING
 
 from rotator.control.sky.angles import direction, great_circle_deg
-from rotator.control.sky.mount import Mount
+from rotator.control.sky.mount import Mount, counted_target
 from rotator.exchange.status import Status
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 ANTENNA, TARGET, BOTH = "◆", "◇", "◈"
 ANTENNA_STYLE, TARGET_STYLE, FORBIDDEN_STYLE = "bold cyan", "bold green", "red"
@@ -49,7 +51,9 @@ def aimed_at(status: Status) -> Way | None:
     if azimuth.ordered_deg is None and elevation.ordered_deg is None:
         return None
     if status.flown and status.wanted_azimuth_deg is not None and status.wanted_elevation_deg is not None:
-        return direction(status.wanted_azimuth_deg, status.wanted_elevation_deg)
+        wanted = direction(status.wanted_azimuth_deg, status.wanted_elevation_deg)
+        antenna = pointing(status)
+        return wanted if antenna is None else counted_target(status.fitted, antenna, wanted)
     azimuth_deg, elevation_deg = (
         axis.points_deg if axis.ordered_deg is None else axis.ordered_deg + axis.correction_deg
         for axis in (azimuth, elevation)
@@ -121,6 +125,8 @@ class _Canvas:
 
     def texts(self) -> list[Text]:
         columns = range(self.columns)
+        from rich.text import Text  # noqa: PLC0415 - the page needs only the directions of this file
+
         return [Text.assemble(*_runs(self._cell(column, row) for column in columns)) for row in range(self.rows)]
 
     def _cell(self, column: int, row: int) -> tuple[str, str]:
@@ -146,6 +152,8 @@ def plot(columns: int, rows: int, status: Status, mount: Mount | None, trail: It
     if antenna:
         same = target is not None and canvas.place(target) == canvas.place(antenna)
         canvas.mark(antenna, BOTH if same else ANTENNA, ANTENNA_STYLE)
+    from rich.text import Text  # noqa: PLC0415 - the page needs only the directions of this file
+
     legend = Text.assemble((ANTENNA, ANTENNA_STYLE), " antenna   ", (TARGET, TARGET_STYLE), " target")
     legend.align("center", columns)
     return [*canvas.texts(), legend]

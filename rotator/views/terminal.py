@@ -24,6 +24,7 @@ from rotator.views.plain_characters import in_ascii
 from rotator.views.sky_plot import Way
 from rotator.views.words import (
     ALARMS,
+    KEYS,
     WARNS,
     WireView,
     headline,
@@ -37,7 +38,6 @@ from rotator.views.words import (
     release,
 )
 
-KEYS = "space STOP   q quit", "park + Enter: storm park", "resume + Enter: go on"
 _GLASS = "bold #e8f4ff on #1040c0"
 _BEZEL = Style.parse("#708090")
 _LEFT, _BETWEEN = 76, 3

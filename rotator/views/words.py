@@ -18,6 +18,7 @@ from rotator.exchange.spoken import sender, spoken
 from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.views.sky_plot import off_deg
 
+KEYS = "space STOP   q quit", "park + Enter: storm park", "resume + Enter: go on"
 TURNS = {
     (Axis.AZIMUTH, Direction.PLUS): "CW",
     (Axis.AZIMUTH, Direction.MINUS): "CCW",
@@ -59,9 +60,9 @@ def stopped_by(status: Status) -> str:
 
 def headline(status: Status) -> tuple[str, str]:
     """The activity of the box in a few words, and their style. The worst comes first."""
-    faulted = [axis.value for axis in Axis if status.axis(axis).fault]
-    homing = [axis.value for axis in Axis if status.axis(axis).homing]
-    lacking = [axis.value for axis in Axis if status.axis(axis).missing]
+    faulted = [axis.value for axis in status.fitted if status.axis(axis).fault]
+    homing = [axis.value for axis in status.fitted if status.axis(axis).homing]
+    lacking = [axis.value for axis in status.fitted if status.axis(axis).missing]
     if loud := next((fault.act_now for fault in status.faults if fault.act_now), ""):
         return loud, ALARMS
     if status.latched:
@@ -75,7 +76,7 @@ def headline(status: Status) -> tuple[str, str]:
         return spoken(words[0].upper() + words[1:]), WARNS
     if lacking:
         return f"UNCALIBRATED {' and '.join(lacking)}", WARNS
-    if stray := [axis.value for axis in Axis if status.axis(axis).by_itself_dps]:
+    if stray := [axis.value for axis in status.fitted if status.axis(axis).by_itself_dps]:
         return f"TURNING BY ITSELF: {' and '.join(stray)}", ALARMS
     if status.moving:
         return "TURNING", GOOD
@@ -88,10 +89,10 @@ def _at_rest(status: Status) -> tuple[str, str]:
     """The words for a box at rest. An axis without an order, or that lost it by a fault, points at no target."""
     if off_deg(status) is None:
         return "AT REST", PLAIN
-    lost = [axis for axis in Axis if status.axis(axis).target_deg is None]
+    lost = [axis for axis in status.fitted if status.axis(axis).target_deg is None]
     if not lost:
         return "ON TARGET", GOOD
-    if (there := next((axis for axis in Axis if axis not in lost), None)) is None:
+    if (there := next((axis for axis in status.fitted if axis not in lost), None)) is None:
         return "AT REST", PLAIN
     return f"{there.value.upper()} ON TARGET, {lost[0].value.upper()} AT REST", PLAIN
 
@@ -144,7 +145,7 @@ def links(wires: Sequence[WireView]) -> tuple[str, str]:
 
 def pass_starts(status: Status) -> str:
     """The number of motor starts; empty: no relay starts the motors."""
-    counts = [f"{axis.value} {count}" for axis in Axis if (count := status.axis(axis).starts) is not None]
+    counts = [f"{axis.value} {count}" for axis in status.fitted if (count := status.axis(axis).starts) is not None]
     return f"motor starts in this pass: {', '.join(counts)}" if counts else ""
 
 
@@ -171,18 +172,24 @@ def by_itself(axis: Axis, each: AxisStatus) -> str:
 
 
 def notes(status: Status) -> list[str]:
-    return [f"{axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
+    return [f"{axis.value}: {notice}" for axis in status.fitted for notice in status.axis(axis).notices]
 
 
 def lacks(status: Status) -> list[str]:
     """The missing steps of each axis before it may be aimed."""
     texts = []
-    for axis in Axis:
+    for axis in status.fitted:
         each = status.axis(axis)
         if each.uncalibrated:
             reads = "" if each.raw is None else f" (its sensor reads {round(each.raw, 4) + 0.0:.4f})"
             texts.append(f"{axis.value} UNCALIBRATED: it needs {each.uncalibrated}{reads}")
     return texts
+
+
+def stands(axis: AxisStatus, digits: int = 1) -> str:
+    """Where the axis stands: `137.0°`; `≈137.0°` where that is only reckoned by time."""
+    about = "≈" if axis.error_deg is not None and axis.shown_deg is not None else ""
+    return about + degrees(axis.shown_deg, digits)
 
 
 def degrees(angle_deg: float | None, digits: int = 1, *, sign: bool = False) -> str:

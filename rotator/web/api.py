@@ -7,7 +7,8 @@ same. Who may ask for what is in `entrance`.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Coroutine, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Coroutine, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,14 +23,12 @@ from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
 from rotator.store.paired import Paired
 from rotator.web import assets, openapi, tables
-from rotator.web.api_page import api_page
 from rotator.web.connections import Connections, machine
-from rotator.web.doors import Doors
-from rotator.web.entrance import Entrance, add_headers, error, source_of, values_of
+from rotator.web.entrance import Doors, Entrance, RefusedError, add_headers, source_of, values_of
 from rotator.web.facts import BoxFacts, Station, box
-from rotator.web.holding import Holding
-from rotator.web.live import LONGEST_SIGN, MESSAGES, Live
+from rotator.web.live import LONGEST_SIGN, MESSAGES, MOST_WATCHERS, Holding, Live
 from rotator.web.logs import LatestLines, LogLines
+from rotator.web.openapi import api_page
 from rotator.web.pairing import Pairings
 from rotator.web.pairing_api import PairingApi, hello
 from rotator.web.past import PastMinutes
@@ -74,6 +73,8 @@ class Api:
         self._description: asyncio.Task[dict[str, Any]] | None = None
         self._operating: dict[int, Operating] = {}
         """One for each number of a paired browser; 0: all browsers without pairing, which may only stop."""
+        self._pressed: deque[str] = deque(maxlen=MOST_WATCHERS)
+        """The keys of the latest presses of STOP."""
 
     def application(self) -> web.Application:
         itself = ("This description, as OpenAPI 3.1", openapi.ITSELF)
@@ -83,7 +84,7 @@ class Api:
             *(openapi.order(each, self._order(each)) for each in METHODS),
             tables.route(self._as, self._parts.scene.with_names),
             *(route for group in self._parts.groups for route in group(self._entrance)),
-            get("/api/openapi.json", self._describe, itself, access=FREE),
+            get("/api/openapi.json", lambda _: self._described(), itself, access=FREE),
         ]
         app = web.Application(middlewares=[self._entrance.guarded], client_max_size=MOST_BODY)
         app.on_response_prepare.append(add_headers)
@@ -105,32 +106,21 @@ class Api:
         log = "The latest lines of the log, the latest first", LatestLines
         pictures = "A WebSocket: ten pictures of the box a second, STOP, and a button that is held", MESSAGES
         return (
-            get("/api/status", self._read(lambda: as_object(parts.status())), status),
-            get("/api/box", self._box, station),
-            get("/api/past", self._read(parts.scene.past.rows), past),
-            get("/api/path", self._read(parts.scene.path), path),
+            get("/api/status", lambda _: as_object(parts.status()), status),
+            get("/api/box", lambda request: self._box_for(self._entrance.who(request)), station),
+            get("/api/past", lambda _: parts.scene.past.rows(), past),
+            get("/api/path", lambda _: parts.scene.path(), path),
             # It names people's browsers and machines.
             get("/api/log", self._log, log, access=PAIRED),
             live("/api/live", self._serve_live, pictures, access=READING, query={}, more={}),
         )
 
-    def _read(self, make: Callable[[], Mapping[str, object]]) -> Handler:
-        async def answer(_request: web.Request) -> web.StreamResponse:
-            return web.json_response(make())
-
-        return answer
-
-    async def _box(self, request: web.Request) -> web.StreamResponse:
-        return web.json_response(self._box_for(self._entrance.who(request)))
-
     def _box_for(self, who: Paired | None) -> BoxFacts:
         return box(self._parts.station, self._parts.status(), stranger=who is None)
 
-    async def _log(self, _request: web.Request) -> web.StreamResponse:
+    def _log(self, _request: web.Request) -> LatestLines:
         with_names = self._parts.scene.with_names
-        return web.json_response(
-            {"lines": [{**line, "text": with_names(line["text"])} for line in self._parts.lines.latest_first()]}
-        )
+        return {"lines": [{**line, "text": with_names(line["text"])} for line in self._parts.lines.latest_first()]}
 
     async def _serve_live(self, request: web.Request) -> web.StreamResponse:
         socket = web.WebSocketResponse(max_msg_size=LONGEST_SIGN, compress=False, heartbeat=10.0, timeout=1.0)
@@ -143,7 +133,7 @@ class Api:
             {**hello(who), "box": self._box_for(who)},
             holding,
             lambda: self._is_still(who, request),
-            stop=lambda: self._as(self._entrance.who(request)).do(Stop(latch=True)),
+            stop=lambda key: self._stop(self._as(self._entrance.who(request)), key),
             host=machine(request.remote or ""),
         )
         return socket
@@ -167,9 +157,6 @@ class Api:
             made = asyncio.to_thread(openapi.description, self._routes)
             self._description = asyncio.create_task(made, name="page: description")
         return await asyncio.shield(self._description)
-
-    async def _describe(self, _request: web.Request) -> web.StreamResponse:
-        return web.json_response(await self._described())
 
     async def _api_page(self, request: web.Request) -> web.StreamResponse:
         if request.path not in self._assets:
@@ -200,7 +187,7 @@ class Api:
     # --- orders
 
     def _order(self, method: Method) -> Handler:
-        async def answer(request: web.Request) -> web.StreamResponse:
+        async def answer(request: web.Request) -> None:
             who = self._entrance.who(request)
             # A stop counts with any body.
             try:
@@ -209,11 +196,25 @@ class Api:
                 self._as(who).refuse(str(reason))
                 raise
             if isinstance(command, Release) and self._has_stopped_since(request):
-                return error(412, "it has been stopped again meanwhile: look at it, and press once more")
-            refused = self._as(who).do(command)
-            return error(409, self._parts.scene.with_names(refused)) if refused else web.json_response({"ok": True})
+                raise RefusedError("it has been stopped again meanwhile: look at it, and press once more", 412)
+            if isinstance(command, Stop):
+                refused = self._stop(self._as(who), request.headers.get("Idempotency-Key", ""))
+            else:
+                refused = self._as(who).do(command)
+            if refused:
+                raise RefusedError(self._parts.scene.with_names(refused))
 
         return answer
+
+    def _stop(self, operating: Operating, key: str) -> str:
+        """Stop everything. A press of STOP comes by two ways, each with its `key`: the later one is no second stop,
+        which would hold the antenna again after a quick "Let it move again". Returns why it is refused.
+        """
+        if key and key in self._pressed:
+            return ""
+        if not (refused := operating.do(Stop(latch=True))):
+            self._pressed.append(key)
+        return refused
 
     def _has_stopped_since(self, request: web.Request) -> bool:
         """Whether a stop has overtaken this request: its `If-Match` names the stops that its sender has seen."""

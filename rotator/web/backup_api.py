@@ -18,10 +18,11 @@ from typing_extensions import TypedDict
 from rotator.backup.content import CHECKS, CONFIGURATION, MOST_BYTES, Backup, BackupError, check, pack
 from rotator.backup.restore import stage
 from rotator.config import toml_text
+from rotator.config.mistake import ConfigError
 from rotator.config.model import Config
 from rotator.protocols.methods import WrongValuesError
 from rotator.web.box_file import Begun, BoxFile
-from rotator.web.entrance import RefusedError, bytes_of, download, error, paired
+from rotator.web.entrance import RefusedError, bytes_of, download, paired
 from rotator.web.route import PAIRED, Route, get, post, refusals
 from rotator.web.schema import ZIP, in_address, the
 
@@ -68,14 +69,14 @@ class BackupApi:
             raise RefusedError(f"{path} cannot be read: {fault.strerror or fault}") from None
         return download(packed, "rotator-backup.zip")
 
-    async def _look(self, request: web.Request) -> web.StreamResponse:
+    async def _look(self, request: web.Request) -> _Look:
         path, data = self._file.path, await bytes_of(request, MOST_BYTES)
         try:
-            return web.json_response(await asyncio.to_thread(_shown, path, data))
+            return await asyncio.to_thread(_shown, path, data)
         except BackupError as reason:
-            return error(422, str(reason))
+            raise RefusedError(str(reason), 422) from None
 
-    async def _restore(self, request: web.Request) -> web.StreamResponse:
+    async def _restore(self, request: web.Request) -> Begun:
         who = paired(request)
         path, data = self._file.path, await bytes_of(request, MOST_BYTES)
         stop = request.query.get("stop", "false")
@@ -85,11 +86,11 @@ class BackupApi:
         try:
             await asyncio.to_thread(stage, path, data)
         except BackupError as reason:
-            return error(422, str(reason))
+            raise RefusedError(str(reason), 422) from None
         except OSError as fault:
             raise RefusedError(f"{path.parent} cannot be written to: {fault.strerror or fault}") from None
         log.warning("page: %s restores a backup: the box starts anew with it", who.name)
-        return web.json_response(self._file.begin_anew())
+        return self._file.begin_anew()
 
 
 def _shown(path: Path, data: bytes) -> _Look:
@@ -97,7 +98,7 @@ def _shown(path: Path, data: bytes) -> _Look:
     backup: Backup = check(data)
     try:
         now = toml_text.read(path)
-    except (OSError, toml_text.NoTextError):
+    except (OSError, ConfigError):
         now = ""
     rows = difflib.unified_diff(now.splitlines(), backup.text.splitlines(), "now", "backup", n=2, lineterm="")
     return {

@@ -31,15 +31,12 @@ from rotator.store.flown import FlownPasses
 from rotator.store.paired import FILE_NAME, Paired, PairedFile
 from rotator.store.uploads import Uploads
 from rotator.tracking.thread import TrackingThread
-from rotator.web.doors import Doors
 from rotator.web.facts import Station
-from rotator.web.logs import LogLines
+from rotator.web.logs import LogLines, WireLog
 from rotator.web.pairing import Pairings
-from rotator.web.passes import Passes, command
 from rotator.web.recorder import Recorder
 from rotator.web.scene import Scene
 from rotator.web.thread import PageThread
-from rotator.web.wires import WireLog
 
 if TYPE_CHECKING:
     from rotator.calibrating.on_page import PageCalibration
@@ -102,9 +99,10 @@ def build_page(
         from rotator.web.api import PageParts  # noqa: PLC0415
         from rotator.web.box_file import BoxFile  # noqa: PLC0415
         from rotator.web.elements import ElementFiles  # noqa: PLC0415
+        from rotator.web.entrance import Doors  # noqa: PLC0415
         from rotator.web.flown import FlownPictures  # noqa: PLC0415
         from rotator.web.help_api import help_groups  # noqa: PLC0415
-        from rotator.web.plan import Plan  # noqa: PLC0415
+        from rotator.web.plan import Passes, Plan, command  # noqa: PLC0415
         from rotator.web.setting_up import SettingUpApi  # noqa: PLC0415
         from rotator.web.settings import SettingsApi  # noqa: PLC0415
 

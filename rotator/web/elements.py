@@ -21,7 +21,7 @@ from rotator.store.fetches import Asked, FetchesFile
 from rotator.store.uploads import MOST_BYTES, NotKeptError, Uploads
 from rotator.tracking.file_reader import FileReader
 from rotator.tracking.known_sky import KnownSky
-from rotator.web.entrance import bytes_of, error, values_of
+from rotator.web.entrance import RefusedError, bytes_of
 from rotator.web.route import Route, get, post
 from rotator.web.schema import ELEMENTS, Body, Sent, in_address, the
 
@@ -88,10 +88,7 @@ class ElementFiles:
         """Allows one file at a time: each takes memory and a core."""
 
     def routes(self) -> Sequence[Route]:
-        async def listed(_request: web.Request) -> web.StreamResponse:
-            return web.json_response(await asyncio.to_thread(self.listed))
-
-        async def take(request: web.Request) -> web.StreamResponse:
+        async def take(request: web.Request) -> _Kept:
             name = request.query.get("name", "")
             if not 0 < len(name) <= LONGEST_NAME:
                 raise WrongValuesError("send the file as the body of /api/elements?name=FILE")
@@ -100,19 +97,17 @@ class ElementFiles:
                 try:
                     kept = await asyncio.to_thread(self._uploads.put, name, content, self._faults)
                 except NotKeptError as reason:
-                    return error(400, printable(str(reason)))
+                    raise WrongValuesError(printable(str(reason))) from None
             self._changed()
-            return web.json_response({"name": kept})
+            return {"name": kept}
 
-        async def remove(request: web.Request) -> web.StreamResponse:
-            name = _FORGET.read(await values_of(request))["name"]
+        async def remove(_request: web.Request, sent: _Forget) -> None:
             async with self._one:
                 try:
-                    await asyncio.to_thread(self._uploads.remove, name)
+                    await asyncio.to_thread(self._uploads.remove, sent["name"])
                 except NotKeptError as reason:
-                    return error(409, str(reason))
+                    raise RefusedError(str(reason)) from None
             self._changed()
-            return web.json_response({"ok": True})
 
         summary, name = (
             "Send a file of elements: taken whole or not at all",
@@ -120,7 +115,7 @@ class ElementFiles:
         )
         ages = "The files and addresses of elements, and how old these are", _Elements
         return (
-            get("/api/elements", listed, ages),
+            get("/api/elements", lambda _: asyncio.to_thread(self.listed), ages),
             post("/api/elements", take, summary, ELEMENTS, answer=_Kept, most_body=MOST_BYTES, query=name),
             post("/api/elements/remove", remove, "Forget a file that was sent", _FORGET),
         )

@@ -1,33 +1,84 @@
 """The entrance of the page: which requests are accepted, who sends them, and how large they may be.
 
-Knows headers, cookies and tokens, and the answers of a refusal. Does not know what a request is for.
+Knows networks, the names of the box, headers, cookies and tokens, and the answers of a refusal. The headers Host,
+Origin and Sec-Fetch-Site keep out a foreign page in a visitor's browser, which cannot forge them. Does not know what a
+request is for.
 """
 
 from __future__ import annotations
 
+import ipaddress
+import re
+from collections.abc import Awaitable, Callable, Iterable, Sequence
+from inspect import isawaitable
 from typing import Any
 
 from aiohttp import web
 
 from rotator.exchange.foreign import json_of
 from rotator.exchange.sources import PAGE, Source
+from rotator.links.allowed import PRIVATE, Allowed
 from rotator.protocols.methods import WrongValuesError
 from rotator.store.paired import Paired
 from rotator.web import assets
 from rotator.web.connections import Connections
-from rotator.web.doors import Doors
-from rotator.web.pairing import LASTS_S, Pairings
-from rotator.web.pairing_code import NotPairedError
-from rotator.web.route import MOST_BODY, Handler, Route
+from rotator.web.pairing import LASTS_S, NotPairedError, Pairings
+from rotator.web.route import MOST_BODY, Route
 from rotator.web.schema import ZIP
 
+_HOST = re.compile(r"(\[[0-9a-fA-F:.]+\]|[A-Za-z0-9.-]{1,253})(?::[0-9]{1,5})?")
+
+
+class Doors:
+    """`names`: of this computer. `allow`: the networks that may connect; None: private ones."""
+
+    def __init__(self, names: Iterable[str], allow: Sequence[str] | None = None) -> None:
+        self._names = {name.lower().rstrip(".") for name in names} | {"localhost"}
+        self._names |= {f"{name}.local" for name in self._names if "." not in name and name != "localhost"}
+        self._allowed = Allowed(PRIVATE if allow is None else allow)
+
+    def lets_in(self, address: str) -> bool:
+        """Whether a machine with this address may connect."""
+        return self._allowed(address)
+
+    def knows(self, host: str) -> bool:
+        """Whether this is an address of the box, as the header Host names it.
+
+        An IP address always is: a foreign page can point its own name at the box, but not an IP address.
+        """
+        found = _HOST.fullmatch(host)
+        if found is None:
+            return False
+        name = found[1].lower().rstrip(".")
+        try:
+            ipaddress.ip_address(name.strip("[]"))
+        except ValueError:
+            return name in self._names
+        return True
+
+    @staticmethod
+    def is_own(host: str, origin: str | None, site: str | None) -> bool:
+        """Whether a request that changes something comes from the box's own page, or from no page at all.
+
+        `origin`, `site`: the headers Origin and Sec-Fetch-Site; None: missing, as from curl.
+        """
+        if site is not None and site not in ("same-origin", "none"):
+            return False
+        return origin is None or origin.lower() in (f"http://{host.lower()}", f"https://{host.lower()}")
+
+
 COOKIE = "rotator"
+Serve = Callable[[web.Request], Awaitable[web.StreamResponse]]
 _SENDER = web.RequestKey("sender", Paired)
 _TOO_LONG = "this request has a body of at most {} bytes"
 
 
 class RefusedError(Exception):
-    """The request is understood, but the box cannot do it now. The text says why."""
+    """The request is understood, but the box cannot do it now. The text says why; `status`: of HTTP."""
+
+    def __init__(self, why: str, status: int = 409) -> None:
+        super().__init__(why)
+        self.status = status
 
 
 class Entrance:
@@ -40,7 +91,7 @@ class Entrance:
         self.reading_open = reading_open
 
     @web.middleware
-    async def guarded(self, request: web.Request, handler: Handler) -> web.StreamResponse:
+    async def guarded(self, request: web.Request, handler: Serve) -> web.StreamResponse:
         self._connections.begin(request.transport)
         try:
             if refused := self._refused(request):
@@ -56,7 +107,7 @@ class Entrance:
         except NotPairedError as reason:
             return error(403, str(reason))
         except RefusedError as reason:
-            return error(409, str(reason))
+            return error(reason.status, str(reason))
         except WrongValuesError as reason:
             return error(400, str(reason))
         finally:
@@ -79,8 +130,8 @@ class Entrance:
         token = bearer.strip() if scheme.lower() == "bearer" else request.cookies.get(COOKIE, "")
         return self._pairings.known(token) if token else None
 
-    def guarding(self, route: Route) -> Handler:
-        """The handler of a route, for those who may ask for it as it describes itself, and for no longer bodies.
+    def guarding(self, route: Route) -> Serve:
+        """Serves a route to those who may ask for it as it describes itself, with no longer bodies.
 
         Before the first byte is read: a stranger's file must not take memory.
         """
@@ -95,7 +146,9 @@ class Entrance:
                 if who is None:
                     raise web.HTTPUnauthorized(reason="not paired: only a paired browser or program may do that")
                 request[_SENDER] = who
-            return await route.serve(request)
+            given = [] if route.body is None else [route.body.read(await values_of(request, route.most_body))]
+            made = route.serve(request, *given)
+            return _answer(await made if isawaitable(made) else made)
 
         return serve
 
@@ -108,6 +161,12 @@ class Entrance:
         token = request.cookies.get(COOKIE, "")
         if token and self._pairings.known(token):
             set_cookie(answer, token)
+
+
+def _answer(made: Any) -> web.StreamResponse:
+    if isinstance(made, web.StreamResponse):
+        return made
+    return web.json_response({"ok": True} if made is None else made)
 
 
 def paired(request: web.Request) -> Paired:

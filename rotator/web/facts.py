@@ -11,8 +11,9 @@ from typing import Annotated
 
 from typing_extensions import TypedDict
 
+from hw.ports import Axis
 from rotator import __version__
-from rotator.control.sky.mount import Mount
+from rotator.control.sky.mount import Mount, Range
 from rotator.exchange.status import Status
 from rotator.web.schema import Pair, the
 
@@ -28,7 +29,7 @@ class Station:
     """Latitude and longitude; None: not known."""
 
 
-_Range = TypedDict("_Range", {"min_deg": float, "max_deg": float})
+_Range = TypedDict("_Range", {"min_deg": float, "max_deg": float, "fitted": Annotated[bool, the("it has this axis")]})
 _Sector = TypedDict("_Sector", {"name": str, "azimuth": Pair, "elevation": Pair})
 
 
@@ -54,8 +55,8 @@ def box(station: Station, status: Status, *, stranger: bool) -> BoxFacts:
         "simulated": status.simulated,
         "beam_deg": station.beam_deg,
         "where": [round(deg) for deg in exact] if exact and stranger else exact,
-        "azimuth": {"min_deg": mount.azimuth.min_deg, "max_deg": mount.azimuth.max_deg},
-        "elevation": {"min_deg": mount.elevation.min_deg, "max_deg": mount.elevation.max_deg},
+        "azimuth": _range(mount.azimuth.shown, fitted=Axis.AZIMUTH in mount.fitted),
+        "elevation": _range(mount.elevation, fitted=Axis.ELEVATION in mount.fitted),
         "tolerance_deg": station.tolerances_deg,
         "park": [mount.park_azimuth_deg, mount.park_elevation_deg],
         "horizon": list(mount.horizon),
@@ -68,3 +69,7 @@ def box(station: Station, status: Status, *, stranger: bool) -> BoxFacts:
             for sector in mount.sectors
         ],
     }
+
+
+def _range(limits: Range, *, fitted: bool) -> _Range:
+    return {"min_deg": limits.min_deg, "max_deg": limits.max_deg, "fitted": fitted}

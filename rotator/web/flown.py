@@ -56,9 +56,6 @@ class FlownPictures:
         self._over: list[Record] = []
 
     def routes(self) -> Sequence[Route]:
-        async def listed(_request: web.Request) -> web.StreamResponse:
-            return web.json_response({"flown": [asdict(each) for each in self._kept.passes]})
-
         async def picture(request: web.Request) -> web.StreamResponse:
             file = request.query.get("file", "")
             if not file:
@@ -73,7 +70,11 @@ class FlownPictures:
             )
 
         return (
-            get("/api/flown", listed, ("The last passes that were flown, the latest first", _Flown)),
+            get(
+                "/api/flown",
+                lambda _: {"flown": [asdict(each) for each in self._kept.passes]},
+                ("The last passes that were flown, the latest first", _Flown),
+            ),
             get(
                 "/api/flown/picture",
                 picture,

@@ -23,14 +23,13 @@ from rotator.web.backup_api import BackupApi
 from rotator.web.box_file import BoxFile
 from rotator.web.computed import Computed, of_the_program
 from rotator.web.diagnostics import Known, diagnostics, read_text
-from rotator.web.entrance import Entrance, computed, download, error
+from rotator.web.entrance import Entrance, RefusedError, computed, download
 from rotator.web.live import dropped_if_slow
-from rotator.web.logs import LogLines
+from rotator.web.logs import LogLines, WireLog
 from rotator.web.pairing import Pairings
 from rotator.web.redaction import Redaction, secrets_of, spellings_of_place
 from rotator.web.route import COMPUTING, PAIRED, Route, get, live, refusals
 from rotator.web.schema import ZIP, in_address, the
-from rotator.web.wires import WireLog
 
 DOCTOR_KEPT_S = 5.0
 LONGEST_NUMBER = 18
@@ -132,15 +131,13 @@ class HelpApi:
         self._watch = WireWatch(wires)
 
     def routes(self) -> Sequence[Route]:
+        report = "The checks of `rotator doctor --json`", _Report
         after = {"after": in_address("the `upto` of the last message that you have", "480")}
         return (
-            get("/api/doctor", self._examine, ("The checks of `rotator doctor --json`", _Report), more=COMPUTING),
+            get("/api/doctor", lambda _: computed(self._doctor.answer()), report, more=COMPUTING),
             get("/api/diagnostics", self._diagnose, (DIAGNOSTICS, ZIP), access=PAIRED),
             live("/api/wires", self._serve_wires, (WIRES, MESSAGES), access=PAIRED, query=after, more=refusals(409)),
         )
-
-    async def _examine(self, _request: web.Request) -> web.StreamResponse:
-        return computed(self._doctor.answer())
 
     async def _diagnose(self, _request: web.Request) -> web.StreamResponse:
         packed = await asyncio.to_thread(self._pack, await self._doctor.newest())
@@ -148,7 +145,7 @@ class HelpApi:
 
     async def _serve_wires(self, request: web.Request) -> web.StreamResponse:
         if self._watch.is_full:
-            return error(409, f"{MOST_WATCHERS} are watching already")
+            raise RefusedError(f"{MOST_WATCHERS} are watching already")
         socket = web.WebSocketResponse(max_msg_size=64, compress=False, heartbeat=10.0, timeout=1.0)
         await socket.prepare(request)
         self._entrance.lasts(request)

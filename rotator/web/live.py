@@ -1,7 +1,9 @@
-"""The live connection of a browser: ten pictures of the box a second, and the held button.
+"""The live connection of a browser: ten pictures of the box a second, and the button that a person holds.
 
-Knows the WebSocket. A slow reader gets the newest picture and no queue; a reader that takes no picture is dropped.
-Does not know the content of a picture. The caller decides who may give orders.
+A slow reader gets the newest picture and no queue; a reader that takes no picture is dropped. A motor turns only while
+fresh signs of the finger arrive. Each sign names the latest picture that the browser has seen: so the box knows its age
+without the browser's clock, and ignores a sign that was stuck in the network. Does not know the content of a picture.
+The caller decides who may give orders.
 """
 
 from __future__ import annotations
@@ -10,17 +12,87 @@ import asyncio
 import json
 import logging
 import re
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from secrets import randbits
 from typing import Any
 
 from aiohttp import WSMsgType, web
 
+from hw.ports import Axis, Direction
 from rotator.exchange.foreign import json_of
+from rotator.exchange.orders import Jog
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.panel_words import TURNS
-from rotator.web.holding import LEASE_S, Holding, Pictures
+
+LEASE_S = 0.45
+"""Seconds after the sending of a picture in which a sign that names it lets a motor turn."""
+
+NUMBER_BITS = 53
+"""A number of JavaScript holds as many without rounding."""
+
+
+class Pictures:
+    """The times at which the latest pictures were sent, by number. Numbers are drawn by lot: who has not seen a picture
+    cannot name it."""
+
+    def __init__(self) -> None:
+        self._sent: deque[tuple[int, float]] = deque()
+
+    def next(self, now_s: float) -> int:
+        """The number of a picture that is sent now."""
+        number = randbits(NUMBER_BITS)
+        # Removed by age: many new browsers, each with a first picture, must not push out pictures that still count.
+        while self._sent and now_s - self._sent[0][1] > LEASE_S:
+            self._sent.popleft()
+        self._sent.append((number, now_s))
+        return number
+
+    def sent_s(self, number: int) -> float | None:
+        """When this picture was sent. None: too old, or never sent."""
+        return next((at_s for each, at_s in self._sent if each == number), None)
+
+
+class Holding:
+    """One browser's button. `order` hands a jog to the box and returns why not."""
+
+    def __init__(self, pictures: Pictures, order: Callable[[Jog], str]) -> None:
+        self._pictures = pictures
+        self._order = order
+        self._held: tuple[Axis, Direction] | None = None
+        self._press = 0
+        self._until_s = 0.0
+
+    def sign(self, turn: str, press: int, picture: int, now_s: float) -> str:
+        """The button is held. `press`: counts the presses. Returns why nothing turns; empty: it turns."""
+        sent_s = self._pictures.sent_s(picture)
+        until_s = 0.0 if sent_s is None else sent_s + LEASE_S
+        if until_s <= now_s:
+            return "the connection is too slow to turn the antenna by hand"
+        if press < self._press or (press == self._press and now_s >= self._until_s):
+            return "the connection was lost for a moment: press again"
+        way = TURNS[turn]
+        if self._held is not None and self._held != way:
+            self._release()
+        if refused := self._order(Jog(*way, round(until_s - now_s, 3), held=True)):
+            self._press, self._until_s, self._held = press, now_s, None
+            return refused
+        self._press, self._until_s, self._held = press, until_s, way
+        return ""
+
+    def let_go(self) -> None:
+        """The button was released, or the browser has gone."""
+        if self._held is not None:
+            self._release()
+        self._until_s = 0.0
+
+    def _release(self) -> None:
+        assert self._held is not None, "something is held"
+        axis, _ = self._held
+        self._held = None
+        self._order(Jog(axis, Direction.OFF, held=True))
+
 
 log = logging.getLogger(__name__)
 
@@ -47,7 +119,8 @@ You may send, each as a text, {MOST_SIGNS_PER_S} a second:
 
     {{"stop": true}}
 
-stops everything, and needs no pairing. This needs one:
+stops everything, and needs no pairing. With a `key` that another stop had, sent here or as `Idempotency-Key` of
+/api/stop, it is the same press, which has stopped already. This needs a pairing:
 
     {{"hold": "cw", "press": 1, "n": 1234}}
 
@@ -122,12 +195,12 @@ class Live:
         holding: Holding | None,
         may_look: Callable[[], bool],
         *,
-        stop: Callable[[], str],
+        stop: Callable[[str], str],
         host: str,
     ) -> None:
         """Serve until the browser leaves or loses its right to look. `holding` None: it may only look.
 
-        `stop` stops everything; every browser may call it. `host`: the browser's machine.
+        `stop` stops everything, once for a key; every browser may call it. `host`: the browser's machine.
         """
         if len(self._watchers) >= MOST_WATCHERS:
             # As in `connections`: the oldest of the machine with the most.
@@ -161,7 +234,7 @@ class Live:
     def _made(self, now_s: float) -> str:
         return json.dumps({"n": self.pictures.next(now_s), "now": self._picture()}, separators=(",", ":"))
 
-    async def _listen(self, socket: web.WebSocketResponse, holding: Holding | None, stop: Callable[[], str]) -> None:
+    async def _listen(self, socket: web.WebSocketResponse, holding: Holding | None, stop: Callable[[str], str]) -> None:
         second, signs = 0, 0
         async for message in socket:
             if message.type not in (WSMsgType.TEXT, WSMsgType.BINARY):
@@ -170,13 +243,26 @@ class Live:
             now_s = self._clock()
             second, signs = (second, signs + 1) if int(now_s) == second else (int(now_s), 1)
             if is_stop(said) and not _NO_STOP.search(said):
-                answer: Answer = {"refused": stop()}
+                answer: Answer = {"refused": stop(_key(said))}
             elif signs > MOST_SIGNS_PER_S:
                 return
             else:
                 answer = _act(said, holding, now_s)
             if answer["refused"]:
                 await socket.send_str(json.dumps(answer))
+
+
+def _key(text: bytes) -> str:
+    """The key of a stop; empty: it has none, or the message is damaged."""
+    try:
+        sign = json_of(text)
+    except ValueError:
+        return ""
+    match sign:
+        case {"key": str() as key}:
+            return key
+        case _:
+            return ""
 
 
 def _act(text: bytes, holding: Holding | None, now_s: float) -> Answer:

@@ -15,7 +15,7 @@ from typing_extensions import TypedDict
 
 from rotator.store.paired import LONGEST_NAME, Paired
 from rotator.web.connections import machine
-from rotator.web.entrance import Entrance, error, set_cookie, source_of, values_of
+from rotator.web.entrance import Entrance, RefusedError, set_cookie, source_of
 from rotator.web.pairing import Pairings
 from rotator.web.route import FREE, PAIRED, Route, get, post
 from rotator.web.schema import Body, Sent, the
@@ -64,45 +64,37 @@ class PairingApi:
         me = "Who asks: whether this browser or token may give orders", Hello
         show, pair = "Show a code of six digits on the box's display", "Pair this browser by the code: a cookie"
         return (
-            get("/api/me", self._me, me, access=FREE),
+            get("/api/me", lambda request: hello(self._entrance.who(request)), me, access=FREE),
             get("/api/paired", self._list, ("All that are paired", _PairedList), access=PAIRED),
-            post("/api/pair/begin", self._begin, show, access=FREE),
+            post("/api/pair/begin", lambda _: self._pairings.ask(), show, access=FREE),
             post("/api/pair", self._pair, pair, _ENTER, answer=Hello, access=FREE),
             post("/api/revoke", self._revoke, "Pair this one no more", _REVOKE),
         )
 
-    async def _me(self, request: web.Request) -> web.StreamResponse:
-        return web.json_response(hello(self._entrance.who(request)))
-
-    async def _begin(self, _request: web.Request) -> web.StreamResponse:
-        self._pairings.ask()
-        return web.json_response({"ok": True})
-
-    async def _pair(self, request: web.Request) -> web.StreamResponse:
-        sent = _ENTER.read(await values_of(request))
+    async def _pair(self, request: web.Request, sent: _Enter) -> web.StreamResponse:
         typed, peer = sent["code"].strip().replace(" ", ""), machine(request.remote or "")
         token, who = await asyncio.to_thread(self._pairings.enter, typed, sent["name"], peer)
         answer = web.json_response(hello(who))
         set_cookie(answer, token)
         return answer
 
-    async def _list(self, _request: web.Request) -> web.StreamResponse:
+    def _list(self, _request: web.Request) -> _PairedList:
         now_s = self._utc()
-        paired: list[_Pairing] = [
-            {
-                "number": one.number,
-                "name": one.name,
-                "since_s": now_s - one.since_s,
-                "seen_s": now_s - (one.seen_s or one.since_s),
-            }
-            for one in self._pairings.all()
-        ]
-        return web.json_response({"paired": paired})
+        return {
+            "paired": [
+                {
+                    "number": one.number,
+                    "name": one.name,
+                    "since_s": now_s - one.since_s,
+                    "seen_s": now_s - (one.seen_s or one.since_s),
+                }
+                for one in self._pairings.all()
+            ]
+        }
 
-    async def _revoke(self, request: web.Request) -> web.StreamResponse:
-        sent = _REVOKE.read(await values_of(request))
-        refused = await asyncio.to_thread(self._pairings.revoke, sent["number"])
-        return error(409, refused) if refused else web.json_response({"ok": True})
+    async def _revoke(self, _request: web.Request, sent: _Revoke) -> None:
+        if refused := await asyncio.to_thread(self._pairings.revoke, sent["number"]):
+            raise RefusedError(refused)
 
 
 def hello(who: Paired | None) -> Hello:

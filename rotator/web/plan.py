@@ -1,7 +1,7 @@
 """The sky for the page: the passes of the next day with their plan, the next pass, and the order of the targets.
 
-Knows the output of `rotator sky passes --json`. The order that a person drags is stored beside the configuration, which
-does not change. Does not know how a plan is made.
+Knows the command `rotator sky passes --json` and its output. The order that a person drags is stored beside the
+configuration, which does not change. Does not know orbits, nor how a plan is made.
 """
 
 from __future__ import annotations
@@ -10,12 +10,14 @@ import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
 from functools import partial
+from pathlib import Path
 from typing import Annotated, Any
 
 from aiohttp import web
 from typing_extensions import TypedDict
 
 from rotator.config.sky import FollowTable
+from rotator.config.station import NO_PLACE
 from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
@@ -23,13 +25,87 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.store.priorities import Priorities
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.ranking import ranked
-from rotator.web.entrance import computed, error, values_of
-from rotator.web.passes import ManyPasses, Pass, Passes
-from rotator.web.route import COMPUTING, Route, get, post
-from rotator.web.schema import Body, Pair, Sent, the
+from rotator.web.computed import Computed, of_the_program
+from rotator.web.entrance import RefusedError, computed
+from rotator.web.route import COMPUTING, PAIRED, Route, get, post
+from rotator.web.schema import Body, Pair, Sent, in_address, the
+
+KEPT_S = 1200.0
+MOST = 300
+HOURS = 24
+_Moment = Annotated[str | None, the("with its time zone; null: not within this day")]
+_Planned = TypedDict(
+    "_Planned",
+    {
+        "set_off": Annotated[str | None, the("when the antenna goes there")],
+        "from": str | None,
+        "until": str | None,
+        "wait_az_deg": float | None,
+        "wait_el_deg": float | None,
+        "over_the_top": bool | None,
+        "lost_s": Annotated[float | None, the("of the pass, to turns of the antenna")],
+        "flown": bool,
+        "reason": Annotated[str | None, the("why it is left out, or not flown whole")],
+    },
+)
+
+
+class Pass(TypedDict):
+    name: str
+    aos: _Moment
+    los: _Moment
+    tca: Annotated[str, the("when it is highest")]
+    aos_az_deg: float | None
+    los_az_deg: float | None
+    max_el_deg: float
+    expected_error_deg: float
+    plan: Annotated[_Planned | None, the("null: not in the plan")]
+
+
+ManyPasses = TypedDict("ManyPasses", {"passes": list[Pass]})
+
+
+def command(path: Path) -> tuple[str, ...]:
+    """The command that prints the passes of the configured targets, as JSON."""
+    return of_the_program("sky", "passes", "--json", "--hours", str(HOURS), "--config", str(path))
+
+
+class Passes(Computed):
+    """`words`: the command; None: the configuration has no place of the station. `clock` gives seconds.
+
+    `elements` gives the elements of the satellites: the same object until one changes.
+    """
+
+    def __init__(
+        self, words: Sequence[str] | None, clock: Callable[[], float], elements: Callable[[], object] = lambda: None
+    ) -> None:
+        super().__init__(
+            words or (), clock, named="the passes", kept_s=KEPT_S, shaped=lambda rows: {"passes": rows[:MOST]}
+        )
+        self._elements = elements
+        self._computed_for = elements()
+
+    def answer(self) -> dict[str, Any] | None:
+        """`passes`, or `error` with the reason. None: they are being computed; ask again."""
+        if not self._words:
+            return {"error": NO_PLACE}
+        elements = self._elements()
+        if elements is not self._computed_for:
+            # Fetched, or copied into the folder.
+            self._computed_for = elements
+            self.forget()
+        return super().answer()
+
+    @property
+    def known(self) -> list[dict[str, Any]] | None:
+        """The last computed passes. If they are old, new ones are being computed. None: none yet."""
+        latest = self.latest()
+        return None if latest is None else latest.get("passes", [])
+
 
 Fields = dict[str, Any]
 LONGEST_ORDER = 16_384
+MOST_WORDS = 100
 LEAST_DEG = 10.0
 """Degrees: without a plan the next pass is the first that rises this high."""
 POINTS = 40
@@ -42,6 +118,12 @@ class _Next(Pass):
 
 class _None(TypedDict):
     """There is none."""
+
+
+class _Bearing(TypedDict):
+    place: Annotated[str, the("the country, or the locator")]
+    azimuth_deg: Annotated[float, the("by the short path")]
+    km: float
 
 
 class _Followed(TypedDict):
@@ -86,28 +168,33 @@ class Plan:
         """The next pass as last sent, by its name and rise."""
 
     def routes(self) -> Sequence[Route]:
-        async def passes(_request: web.Request) -> web.StreamResponse:
-            return computed(self._passes.answer())
-
-        async def upcoming(_request: web.Request) -> web.StreamResponse:
-            return computed(self.upcoming())
-
-        async def followed(_request: web.Request) -> web.StreamResponse:
-            return web.json_response({"followed": self.followed()})
-
-        async def order(request: web.Request) -> web.StreamResponse:
-            names = _ORDER.read(await values_of(request, LONGEST_ORDER))["order"]
+        async def order(_request: web.Request, sent: _Order) -> None:
+            names = sent["order"]
             change = self.as_written if names is None else partial(self.reorder, names)
             reason = await asyncio.to_thread(change)
             self._changed()
-            return error(409, reason) if reason else web.json_response({"ok": True})
+            if reason:
+                raise RefusedError(reason)
 
+        def bearing(request: web.Request) -> _Bearing | _None:
+            found = self._sky.place(request.query.get("to", "")[:MOST_WORDS])
+            if found is None:
+                return {}
+            where = found.where
+            return {"place": found.place, "azimuth_deg": round(where.azimuth_deg, 1), "km": round(where.range_km)}
+
+        to = {"to": in_address("a locator, a country, its prefix, or a callsign", "New Zealand")}
+        bearings = "Where a place on the earth is, as `track` takes it; {}: the words name none", _Bearing | _None
+        following = "The next pass, with its path", _Next | _None
+        followed = "What the file follows, the highest priority first", _FollowedList
         day = "The passes of the next day, as `rotator sky passes --json`", ManyPasses
         anew = "What is followed in a new order: what stands first counts most"
         return (
-            get("/api/passes", passes, day, more=COMPUTING),
-            get("/api/next", upcoming, ("The next pass, with its path", _Next | _None), more=COMPUTING),
-            get("/api/followed", followed, ("What the file follows, the highest priority first", _FollowedList)),
+            get("/api/passes", lambda _: computed(self._passes.answer()), day, more=COMPUTING),
+            get("/api/next", lambda _: computed(self.upcoming()), following, more=COMPUTING),
+            get("/api/followed", lambda _: {"followed": self.followed()}, followed),
+            # Who reads it knows where the station is.
+            get("/api/bearing", bearing, bearings, access=PAIRED, query=to),
             post("/api/followed", order, anew, _ORDER, most_body=LONGEST_ORDER),
         )
 

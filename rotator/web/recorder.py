@@ -12,6 +12,7 @@ from itertools import pairwise
 
 from hw.ports import Axis
 from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import counted_target
 from rotator.exchange.flight_order import Fly
 from rotator.exchange.status import AxisStatus, Status
 from rotator.views.trace import Sample, errors_deg, rms
@@ -62,8 +63,10 @@ class _Running:
         azimuth, elevation = status.azimuth, status.elevation
         if azimuth.points_deg is None or elevation.points_deg is None:
             return
-        target_deg = self.path.direction(status.at_s)
         antenna_deg = azimuth.points_deg, elevation.points_deg
+        target_deg = self.path.direction(status.at_s)
+        if target_deg[1] >= 0:
+            target_deg = counted_target(status.fitted, antenna_deg, target_deg)
         self.trace.append(Sample(t_s, *target_deg, *antenna_deg, int(azimuth.drive), int(elevation.drive)))
         if len(self.trace) >= MOST_SAMPLES:
             self.trace, self.every_s = self.trace[::2], 2 * self.every_s

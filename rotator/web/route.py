@@ -6,18 +6,19 @@ type stands in a description where its schema will be: `openapi` makes them. Doe
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from aiohttp import web
 from typing_extensions import TypedDict
 
 from rotator.web.schema import Body, Ok, Schema, component
 
 MOST_BODY = 4096
 JSON = "application/json"
-Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
+Handler = Callable[..., Any]
+"""Gets the request, and the values of its `Body` where it has one. Gives, or lets one wait for, a value for JSON, None
+when all is done, or a whole response."""
 
 PAIRED: Schema = {"security": [{"token": []}, {"browser": []}]}
 READING: Schema = {"security": [{}, {"token": []}, {"browser": []}]}
@@ -47,6 +48,8 @@ class Route:
     """Its `security` is what the entrance asks for."""
     most_body: int = MOST_BODY
     """Bytes; 0: the body is not read, and may have any length."""
+    body: Body[Any] | None = None
+    """Read before it is served; None: the handler reads what it needs."""
 
 
 def get(
@@ -92,7 +95,7 @@ def post(
             "required": not isinstance(body, Body) or body.needed,
             "content": _content(body),
         }
-    return Route("POST", path, serve, described, most_body)
+    return Route("POST", path, serve, described, most_body, body if isinstance(body, Body) else None)
 
 
 def _described(

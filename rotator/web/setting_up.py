@@ -10,23 +10,24 @@ import asyncio
 import logging
 import re
 from collections.abc import Sequence
-from typing import Annotated, Literal, NotRequired
+from typing import TYPE_CHECKING, Annotated, Literal, NotRequired
 
 from aiohttp import web
 from pydantic import Field
 from typing_extensions import TypedDict
 
 from hw.ports import Axis, HardwareError
-from rotator.calibrating.on_page import PageCalibration
-from rotator.calibrating.rig import axis_guide
 from rotator.config.model import Config
 from rotator.protocols.reference.programs import PROGRAMS
 from rotator.setup.answered import Asked, as_they_stand, asked
 from rotator.setup.machine import this_machine
 from rotator.web.box_file import Begun, BoxFile, MayStop
-from rotator.web.entrance import RefusedError, paired, values_of
+from rotator.web.entrance import RefusedError, paired
 from rotator.web.route import PAIRED, Route, get, post, refusals
 from rotator.web.schema import Body, Sent, the
+
+if TYPE_CHECKING:
+    from rotator.calibrating.on_page import PageCalibration
 
 log = logging.getLogger(__name__)
 
@@ -113,58 +114,56 @@ class SettingUpApi:
             post("/api/calibration/press", self._press, "Press keys in the calibration", _PRESS),
         )
 
-    async def _questions(self, request: web.Request) -> web.StreamResponse:
-        answers = _ANSWERED.read(await values_of(request))["answers"]
+    async def _questions(self, _request: web.Request, sent: _Answered) -> _Questions:
         config = (await self._file.settings()).config
         machine = await asyncio.to_thread(this_machine)
-        found = asked({**(as_they_stand(config) if config else {}), **answers}, machine)
-        return web.json_response({"questions": [_shown(each) for each in found]})
+        found = asked({**(as_they_stand(config) if config else {}), **sent["answers"]}, machine)
+        return {"questions": [_shown(each) for each in found]}
 
-    async def _wiring(self, _request: web.Request) -> web.StreamResponse:
+    async def _wiring(self, _request: web.Request) -> _Wiring:
         config = await self._config()
-        wiring: _Wiring = {
+        return {
             "kind": config.rotor.type,
             "pins": [{"gpio": gpio, "key": key} for gpio, key in config.pins()],
             "chips": [{"bus": each.bus, "address": each.address, "name": each.part} for each in config.chips()],
             "active": config.relays.active if config.rotor.switched else None,
         }
-        return web.json_response(wiring)
 
-    async def _programs(self, _request: web.Request) -> web.StreamResponse:
-        programs: list[_Program] = [
-            {
-                "name": each.name,
-                "protocols": each.protocols,
-                "where": _plain(each.where),
-                "settings": _plain(each.settings),
-            }
-            for each in PROGRAMS
-        ]
-        return web.json_response({"programs": programs})
+    def _programs(self, _request: web.Request) -> _Programs:
+        return {
+            "programs": [
+                {
+                    "name": each.name,
+                    "protocols": each.protocols,
+                    "where": _plain(each.where),
+                    "settings": _plain(each.settings),
+                }
+                for each in PROGRAMS
+            ]
+        }
 
-    async def _calibrate(self, request: web.Request) -> web.StreamResponse:
-        who = paired(request)
-        sent = _CALIBRATE.read(await values_of(request))
+    async def _calibrate(self, request: web.Request, sent: _Calibrate) -> Begun:
         axis, file = Axis(sent["axis"]), self._file.path
+        from rotator.calibrating.rig import axis_guide  # noqa: PLC0415 - the page of a normal run does without it
+
         try:
             axis_guide(await self._config(), axis)
         except HardwareError as reason:
             raise RefusedError(str(reason)) from None
         self._file.may_stop(sent)
-        log.warning("page: %s calibrates the %s of %s: the box starts anew for that", who.name, axis.value, file)
-        return web.json_response(self._file.begin_anew(axis))
+        name = paired(request).name
+        log.warning("page: %s calibrates the %s of %s: the box starts anew for that", name, axis.value, file)
+        return self._file.begin_anew(axis)
 
-    async def _guide(self, _request: web.Request) -> web.StreamResponse:
+    def _guide(self, _request: web.Request) -> object:
         if self._calibration is None:
-            return web.json_response({"axis": None, "lines": self._file.anew.calibration_lines})
-        return web.json_response(self._calibration.shown())
+            return {"axis": None, "lines": self._file.anew.calibration_lines}
+        return self._calibration.shown()
 
-    async def _press(self, request: web.Request) -> web.StreamResponse:
-        keys = _PRESS.read(await values_of(request))["keys"]
+    def _press(self, _request: web.Request, sent: _Press) -> None:
         if self._calibration is None:
             raise RefusedError("no axis is being calibrated now")
-        self._calibration.press(keys)
-        return web.json_response({"ok": True})
+        self._calibration.press(sent["keys"])
 
     async def _config(self) -> Config:
         config = (await self._file.settings()).config

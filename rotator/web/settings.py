@@ -15,15 +15,15 @@ from typing import Annotated, Any, Literal, NotRequired, final
 from aiohttp import web
 from typing_extensions import TypedDict
 
-from rotator.config import form
 from rotator.config.edit import Change, NoChangeError, edited
+from rotator.config.keys import forms
 from rotator.config.proposal import Proposal
 from rotator.protocols.methods import WrongValuesError
 from rotator.setup.answered import fresh
 from rotator.setup.network import open_to
 from rotator.setup.questions import network
 from rotator.web.box_file import STOP, Begun, BoxFile, MayStop
-from rotator.web.entrance import computed, paired, values_of
+from rotator.web.entrance import computed, paired
 from rotator.web.route import COMPUTING, PAIRED, Route, answered, get, post, refusals
 from rotator.web.schema import Body, Sent, the
 from rotator.web.setting_up import Answers
@@ -60,7 +60,8 @@ class _Opened(MayStop):
     open_to: Annotated[str, the("the network that may use rotctld, as 192.168.1.0/24")]
 
 
-_CHANGE = Body[_Changed | _Answered | _Opened](
+_Sent = _Changed | _Answered | _Opened
+_CHANGE = Body[_Sent](
     (_Changed, {"digest": "…", "changes": [{"place": ["azimuth", "max_deg"], "value": 450}]}),
     (_Answered, {"digest": "…", "answers": {"rotor": "g5500"}}),
     (_Opened, {"digest": "…", "open_to": "192.168.1.0/24"}),
@@ -137,9 +138,9 @@ class SettingsApi:
             post("/api/restart", self._restart, restart, STOP, answer=Begun),
         )
 
-    async def _read(self, _request: web.Request) -> web.StreamResponse:
+    async def _read(self, _request: web.Request) -> _Settings:
         found = await self._file.settings()
-        settings: _Settings = {
+        return {
             "file": str(self._file.file or ""),
             "run": self._file.run,
             "digest": found.digest,
@@ -147,51 +148,46 @@ class SettingsApi:
             "in_force": found.config.model_dump(mode="json") if found.config else None,
             "refused": self._file.anew.refused,
         }
-        return web.json_response(settings)
 
     async def _forms(self, _request: web.Request) -> web.StreamResponse:
         # Takes seconds on a small Pi.
-        self._form = self._form or asyncio.create_task(asyncio.to_thread(form.tables), name="page: form")
+        self._form = self._form or asyncio.create_task(asyncio.to_thread(forms), name="page: form")
         await asyncio.wait([self._form], timeout=ANSWERS_S)
         return computed({"tables": self._form.result()} if self._form.done() else None)
 
-    async def _check(self, request: web.Request) -> web.StreamResponse:
-        proposal, _ = await self._proposal(request)
-        return web.json_response(_shown(proposal))
+    async def _check(self, _request: web.Request, sent: _Sent) -> _Shown:
+        return _shown(await self._proposal(sent))
 
-    async def _write(self, request: web.Request) -> web.StreamResponse:
-        who = paired(request)
-        proposal, sent = await self._proposal(request)
+    async def _write(self, request: web.Request, sent: _Sent) -> Begun | web.Response:
+        proposal = await self._proposal(sent)
         if proposal.mistakes:
             return web.json_response({"error": proposal.mistakes[0].text, **_shown(proposal)}, status=422)
         self._file.may_stop(sent)
         await self._file.write(proposal)
-        log.warning("page: %s has changed %s: the box starts anew with it", who.name, self._file.path)
-        return web.json_response(self._file.begin_anew())
+        return self._anew(request, f"has changed {self._file.path}: the box starts anew with it")
 
-    async def _make(self, request: web.Request) -> web.StreamResponse:
-        who = paired(request)
-        self._file.may_stop(STOP.read(await values_of(request)))
+    async def _make(self, request: web.Request, sent: MayStop) -> Begun:
+        self._file.may_stop(sent)
         file = await self._file.make()
-        log.warning("page: %s gives the box a file, %s: it starts anew with it", who.name, file)
-        return web.json_response(self._file.begin_anew())
+        return self._anew(request, f"gives the box a file, {file}: it starts anew with it")
 
-    async def _restart(self, request: web.Request) -> web.StreamResponse:
-        who = paired(request)
-        self._file.may_stop(STOP.read(await values_of(request)))
-        log.warning("page: %s has the box start anew", who.name)
-        return web.json_response(self._file.begin_anew())
+    def _restart(self, request: web.Request, sent: MayStop) -> Begun:
+        self._file.may_stop(sent)
+        return self._anew(request, "has the box start anew")
 
-    async def _proposal(self, request: web.Request) -> tuple[Proposal, MayStop]:
-        """The requested change, and whether it may stop the antenna."""
-        sent = _CHANGE.read(await values_of(request, MOST_BODY))
+    def _anew(self, request: web.Request, why: str) -> Begun:
+        log.warning("page: %s %s", paired(request).name, why)
+        return self._file.begin_anew()
+
+    async def _proposal(self, sent: _Sent) -> Proposal:
+        """The requested change."""
         if "changes" in sent:
             make = partial(edited, changes=_changes(sent["changes"]))
         elif "answers" in sent:
             make = partial(fresh, answers=sent["answers"], path=self._file.path, today=self._today())
         else:
             make = partial(_opened, allow=sent["open_to"])
-        return await self._file.propose(sent["digest"], make), sent
+        return await self._file.propose(sent["digest"], make)
 
 
 def _opened(text: str, allow: str) -> str:

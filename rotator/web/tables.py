@@ -15,7 +15,7 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.protocols.operating import Operating
 from rotator.protocols.table_text import TableError, no_text, read_table
 from rotator.store.paired import Paired
-from rotator.web.entrance import bytes_of, error, paired
+from rotator.web.entrance import RefusedError, bytes_of, paired
 from rotator.web.route import Route, post
 from rotator.web.schema import TABLE, in_address
 
@@ -27,7 +27,7 @@ SHOWN_NAME = 40
 def route(operating: Callable[[Paired], Operating], in_words: Callable[[str], str]) -> Route:
     """`operating`: a paired browser's commands. `in_words`: a refusal in words for the page."""
 
-    async def track(request: web.Request) -> web.StreamResponse:
+    async def track(request: web.Request) -> None:
         file = request.query.get("name", "")
         if not 0 < len(file) <= LONGEST_NAME or not file.isprintable():
             raise WrongValuesError("send the table as the body of /api/track-table?name=FILE")
@@ -36,11 +36,11 @@ def route(operating: Callable[[Paired], Operating], in_words: Callable[[str], st
             # In a thread of its own: a long table takes a second on a small computer.
             table = await asyncio.to_thread(read_table, content.decode("utf-8-sig"), _name(file), file, turns=True)
         except UnicodeDecodeError:
-            return error(400, no_text(file))
+            raise WrongValuesError(no_text(file)) from None
         except TableError as mistake:
-            return error(400, str(mistake))
-        refused = operating(paired(request)).program(table)
-        return error(409, in_words(refused)) if refused else web.json_response({"ok": True})
+            raise WrongValuesError(str(mistake)) from None
+        if refused := operating(paired(request)).program(table):
+            raise RefusedError(in_words(refused))
 
     summary = "Track a timed table, t,az,el: t in seconds from now, or in UTC"
     name = {"name": in_address("of the file", "pass.csv")}

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from rotator.links.listening import cannot_listen
 from rotator.links.wire import Wire
 from rotator.runtime.event_watch import EventWatch
+from rotator.runtime.memory import loading
 from rotator.runtime.open_files import say_it_once
 from rotator.web.connections import Connection, Connections
 from rotator.web.logs import http_logger
@@ -142,13 +143,13 @@ class PageThread:
     async def _serve(self, place: socket.socket) -> None:
         self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
         say_it_once(self._loop)
-        # Some hundred modules. Loaded here, they do not delay the start of the box.
-        from aiohttp import http_exceptions, web  # noqa: PLC0415
+        with loading():  # some hundred modules, here: so they do not delay the start of the box
+            from aiohttp import http_exceptions, web  # noqa: PLC0415
 
-        from rotator.web.api import Api  # noqa: PLC0415
-        from rotator.web.live import Live  # noqa: PLC0415
+            from rotator.web.api import Api  # noqa: PLC0415
+            from rotator.web.live import Live  # noqa: PLC0415
 
-        parts = self._build()
+            parts = self._build()
         connections = Connections(parts.doors.lets_in, self._clock)
         live = Live(parts.scene.now, parts.scene.past.note, self._clock)
         runner = web.AppRunner(

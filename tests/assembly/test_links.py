@@ -27,6 +27,7 @@ from rotator.protocols import pstrotatoraz
 from rotator.protocols.pstrotatoraz import response
 from rotator.protocols.reference.gs232 import Example
 from rotator.runtime.loop import ControlLoop
+from tests.tables import every_row
 
 SKY = Sky(Site(52.5, 13.4), lambda: 1.8e9)
 ONLY_GET = "only GET, and at most 4096 bytes\n"
@@ -98,12 +99,12 @@ class Listener(Example):
         return None
 
 
-@pytest.mark.parametrize(("keys", "asked", "answer"), DIALOGUES)
+@every_row(("keys", "asked", "answer"), DIALOGUES)
 def test_it_is_spoken(keys: str, asked: bytes, answer: bytes) -> None:
-    assert b"".join(session_maker(link(keys), Example(), sky=SKY).receive(asked)) == answer
+    assert b"".join(session_maker(link(keys), sky=SKY)(Example()).receive(asked)) == answer
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("keys", "sent", "orders"),
     [
         ('protocol = "n1mm"\nrotor_name = "G-5500"', [go("G-5500"), go("g-5500")], [Aim(55, None)]),
@@ -115,7 +116,7 @@ def test_it_is_spoken(keys: str, asked: bytes, answer: bytes) -> None:
 )
 def test_what_gives_orders_and_hears_nothing(keys: str, sent: list[bytes], orders: list[Order]) -> None:
     box = Listener()
-    session = session_maker(link(keys), box)
+    session = session_maker(link(keys))(box)
     assert [session.receive(each) for each in sent] == [[] for _ in sent]
     assert box.orders == orders
 
@@ -148,17 +149,17 @@ OUT_OF_RANGE = [
 ]
 
 
-@pytest.mark.parametrize(("keys", "said"), OUT_OF_RANGE)
+@every_row(("keys", "said"), OUT_OF_RANGE)
 def test_an_order_out_of_range_is_refused_by_the_box_which_logs_it(keys: str, said: bytes) -> None:
     box = Strict()
-    session_maker(link(keys), box).receive(said)
+    session_maker(link(keys))(box).receive(said)
     (refused,) = box.refused
     assert isinstance(refused, Refusal)
     assert refused.out_of_range
     assert " is outside " in refused.reason
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("keys", "said"),
     [
         ('protocol = "gs232a"', b"W470 020\r"),
@@ -172,7 +173,7 @@ def test_an_order_out_of_range_is_refused_by_the_box_which_logs_it(keys: str, sa
 )
 def test_an_order_out_of_the_protocol_s_own_range_is_logged_too(keys: str, said: bytes) -> None:
     box = Listener()
-    session_maker(link(keys), box).receive(said)
+    session_maker(link(keys))(box).receive(said)
     assert box.orders == []
     (refused,) = box.refused
     assert isinstance(refused, Refusal)
@@ -182,7 +183,7 @@ def test_an_order_out_of_the_protocol_s_own_range_is_logged_too(keys: str, said:
 
 def test_what_it_does_not_know_it_remarks() -> None:
     remarks: list[str] = []
-    session_maker(link('protocol = "pstrotator"'), Example(), remarks.append).receive(b"<PST>FAVLIST?</PST>")
+    session_maker(link('protocol = "pstrotator"'), remarks.append)(Example()).receive(b"<PST>FAVLIST?</PST>")
     assert remarks == ["FAVLIST? does nothing here"]
 
 
@@ -227,4 +228,4 @@ def test_the_station_s_place(keys: str, place: Site) -> None:
 def test_without_a_place_there_is_no_sky() -> None:
     assert build_sky(parse("", "x").station) is None
     with pytest.raises(ValueError, match="needs the station's place"):
-        session_maker(link('protocol = "lx200"'), Example())
+        session_maker(link('protocol = "lx200"'))

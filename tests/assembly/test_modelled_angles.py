@@ -70,6 +70,7 @@ class Run:
         return [self.loop.status.axis(axis).angle_deg for axis in Axis]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("offset_deg", [0, 12])
 @pytest.mark.parametrize("ends", ["properly", "killed"])
 @pytest.mark.parametrize("kind", ["servo", "digipot"])
@@ -94,6 +95,7 @@ def test_an_end_in_mid_move_is_kept_where_it_was(tmp_path: Path, kind: str) -> N
     assert Run(kind, tmp_path).angles_deg() == pytest.approx(first.angles_deg(), abs=0.1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["servo", "digipot"])
 @pytest.mark.parametrize("changed", [{"start_deg": 30}, {"max_deg": 100}, {}])
 def test_with_other_settings_the_file_counts(tmp_path: Path, kind: str, changed: dict[str, Any]) -> None:

@@ -10,7 +10,7 @@ from rotator.assembly.simulation import PLACE_FILE
 from rotator.assembly.station import open_station
 from rotator.config.load import parse
 
-KINDS = ["relay-pot", "relay-pulse", "moteus", "servo", "digipot"]
+KINDS = ["relay-pot", "relay-pulse", "moteus", "servo", "digipot", "h-bridge"]
 
 
 def stands(folder: Path, more: str = "", kind: str = "relay-pot") -> tuple[float, float]:

@@ -60,6 +60,7 @@ def bench() -> Iterator[Callable[..., Bench]]:
         each.box.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("azimuth_deg", [120.0, 200.0, 340.0])
 def test_after_power_on_the_azimuth_knows_where_it_stands_and_nothing_turned(
     bench: Callable[..., Bench], azimuth_deg: float
@@ -75,6 +76,7 @@ def test_after_power_on_the_azimuth_knows_where_it_stands_and_nothing_turned(
     assert (at.box.boom_deg(AZ), at.box.boom_deg(EL)) == pytest.approx((azimuth_deg - 20.0, 10.0), abs=0.05)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("elevation_deg", "limits", "known"),
     [
@@ -102,6 +104,7 @@ def test_gravity_tells_the_elevation_where_its_range_leaves_no_choice(
         assert at.box.axis(EL).angle_deg == pytest.approx(elevation_deg, abs=0.1), "the encoder gives the rest"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("azimuth_deg", "says", "tables"),
     [

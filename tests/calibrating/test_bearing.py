@@ -14,6 +14,7 @@ from rotator.calibrating.bearing import (
     find_north,
 )
 from rotator.control.sky.angles import turn_deg
+from tests.tables import every_row
 
 
 def samples(*headings_deg: float, azimuth_deg: float = 90.0, magnetometer: int = 3) -> list[HeadingSample]:
@@ -24,7 +25,7 @@ def samples(*headings_deg: float, azimuth_deg: float = 90.0, magnetometer: int =
     ]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("heading_deg", "azimuth_deg", "declination_deg", "compass_offset_deg", "offset_deg"),
     [
         (90.0, 90.0, 0.0, 0.0, 0.0),
@@ -54,7 +55,7 @@ def test_around_north_the_mean_is_north_not_south() -> None:
 # --- refused
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("taken", "words"),
     [
         ([], "0 compass readings are too few"),

@@ -27,7 +27,7 @@ CONFIG = parse('[compass]\nkind = "bno055"\naddress = 0x29\n', "test")
 def fitted(clock: Any, sleep: Any, file: KeptCompass | None = None) -> tuple[CompassReader, SimRotor]:
     """A boom at 40°, raised by 20°, with a compass on it."""
     world = SimServoRotor(ServoAxisSpec(0, 40.0), ServoAxisSpec(1, 20.0), clock)
-    world.wire_bno055(0x29, lambda azimuth_deg: azimuth_deg)
+    world.wire_bno055((3, 0x29), lambda azimuth_deg: azimuth_deg)
     board = Board(world, ExitStack(), clock, sleep)
     return CompassReader(open_compass(CONFIG, board), clock, file), world
 

@@ -203,7 +203,7 @@ def test_an_antenna_that_swings(calibration: Any) -> None:
     run.say("u", "y", "d")
     run.wait(2.0)
     run.now("")
-    run.wait(1.0)
+    run.wait(1.5)
     run.world.inject("elevation-shaken")
     run.wait(1.0)
     assert "Refused: elevation: " in run.text
@@ -232,3 +232,12 @@ def test_a_magnet_goes_the_way_of_a_pot_without_volts(calibration: Any) -> None:
         pytest.approx((8 / 360, 8.0), abs=1e-3),
         pytest.approx((0.95, 342.0), abs=1e-3),
     )
+
+
+def test_what_is_reckoned_by_time_is_watched_and_homed(calibration: Any, tmp_path: Path) -> None:
+    run = calibration('[rotor]\ntype = "relay-timed"\n', start_deg=(100.0, 30.0), counts=tmp_path / "counts.json")
+    run.say("r", "y", "l", "y")
+    assert "It stands at 0" in run.say("n", "y")
+    assert run.shaft_deg() == pytest.approx(0.0, abs=0.1)
+    run.say("5", "355", "y")
+    assert result(run) == (5.0, 355.0)

@@ -24,6 +24,7 @@ from rotator.config.load import parse
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from tests.calibrating.rig import QUIET, Calibration
 from tests.search import examples
+from tests.tables import every_row
 
 ONE_NUMBER = re.compile(r"[+-]?[0-9]{1,4}([.,][0-9]{0,4})?")
 NEAR_NUMBERS = st.text("0123456789.,-+ eExX°'\t", min_size=1, max_size=10)
@@ -36,7 +37,7 @@ def keys(text: str) -> list[Entry]:
     return [entry for key in (*text, "\r") if (entry := keyboard.key(key)) is not None]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "value"), [("438.5", 438.5), ("438,5", 438.5), ("-2", -2.0), ("+5", 5.0), (" 90 ", 90.0), ("0,25", 0.25)]
 )
 def test_one_number(text: str, value: float) -> None:

@@ -43,8 +43,8 @@ def mounted(run: Any, askew_deg: float, declination_deg: float = DECLINATION_DEG
         lambda: (world.antenna()[0] + askew_deg - declination_deg) % 360.0,
         pitch_deg=lambda: world.antenna()[1],
     )
-    world.bus.detach(ADDRESS)
-    world.bus.attach(ADDRESS, chip)
+    world.i2c(3).detach(ADDRESS)
+    world.i2c(3).attach(ADDRESS, chip)
     run.chip = chip
     run.wait(1.0)
     return run

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from rotator.calibrating.readings import DEGREES, SHARES, NotTrusted, ReadingUnit, measure, movement
+from tests.tables import every_row
 
 
 def at_the_low_end(run: Any) -> Any:
@@ -21,6 +22,7 @@ HIGH = (*LOW, "", "-2", *"rrrrrrrrr", "", "452")
 """Both ends, of the swift motor."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("before", "line", "says", "asks"),
     [
@@ -54,6 +56,7 @@ def test_an_answer_that_cannot_be_taken(
     assert run.guide.result is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("lines", "says", "asks"),
     [
@@ -121,7 +124,6 @@ def test_help_says_what_each_question_takes_and_all_keys(calibration: Any) -> No
 @pytest.mark.parametrize(
     ("sim", "fault", "says"),
     [
-        ("[sim.azimuth]\npot_noise_deg = 2.2\n", "", "a noisy reading"),
         ("", "azimuth-pot-jumps", "a noisy reading"),
         ("", "azimuth-wind-turns", "moved by +0.0"),
     ],
@@ -169,7 +171,7 @@ def test_after_the_wire_is_mended_it_goes_on(calibration: Any) -> None:
     assert run.guide.prompt.startswith("At the high end")
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("readings", "unit", "reason"),
     [
         ([0.5] * 39 + [0.01], SHARES, "outside lowest_reading 0.02"),

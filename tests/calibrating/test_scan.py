@@ -78,6 +78,7 @@ def scanned(config: Config, hears: Hears, place: tuple[float, float] = PLACE, **
     return sky
 
 
+@pytest.mark.long
 def test_with_relays_and_play_in_its_gears_it_finds_a_target_that_moves_meanwhile() -> None:
     sky = scanned(station("relay-pot"), behind(ReceiverSpec(BEAM_DEG, fading_db=0.7)), target=Across())
     (point,) = sky.guide.points
@@ -90,6 +91,7 @@ def test_with_relays_and_play_in_its_gears_it_finds_a_target_that_moves_meanwhil
     assert sky.guide.result.model.ia_deg == pytest.approx(ASKEW["ia_deg"], abs=1.8)
 
 
+@pytest.mark.long
 def test_a_peak_at_the_edge_of_the_cross_is_looked_at_once_more() -> None:
     config = station(sim={"mount": {"ia_deg": 10.0}, "bus_takes_time": False}, station={"beam_deg": 8.0})
     sky = scanned(config, behind(ReceiverSpec(8.0)))
@@ -98,6 +100,7 @@ def test_a_peak_at_the_edge_of_the_cross_is_looked_at_once_more() -> None:
     assert off_deg(sky, point) < 0.8
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("hears", "says"),
     [
@@ -114,6 +117,7 @@ def test_what_tells_no_middle_gives_no_point(hears: Hears, says: str) -> None:
     assert not sky.moving()
 
 
+@pytest.mark.long
 def test_a_single_answer_that_fails_ends_no_scan() -> None:
     """A receiver on a slow CAT line refuses some questions, for less than the 5 s in which it would be gone."""
 
@@ -126,7 +130,8 @@ def test_a_single_answer_that_fails_ends_no_scan() -> None:
     assert off_deg(sky, point) < BEAM_DEG / 10
 
 
-@pytest.mark.parametrize("late_s", [0.5, 1.5, 2.9])
+@pytest.mark.long
+@pytest.mark.parametrize("late_s", [0.5, 2.9])
 def test_what_a_slow_receiver_heard_while_the_boom_still_turned_does_not_count(late_s: float) -> None:
     """It answers late, and its answer is of the moment of the question."""
 
@@ -156,6 +161,7 @@ def test_a_receiver_that_has_never_told_anything_ends_the_scan() -> None:
     assert "The receiver has given no strength for 5 s. No point is taken." in sky.text
 
 
+@pytest.mark.long
 def test_s_stops_the_scan_in_any_step_of_a_place() -> None:
     """Of the turn, of the wait until the boom stands, of the listening, and in the last one of each."""
     narrow = station("relay-pot", station={"beam_deg": 4.0})

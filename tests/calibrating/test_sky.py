@@ -54,6 +54,7 @@ def off_deg(model: PointingModel) -> float:
     return math.sqrt(sum(squares) / len(squares))
 
 
+@pytest.mark.long
 def test_six_errors_are_found_from_eight_places_and_saved(tmp_path: Path) -> None:
     sky = taken(begun(), *PLACES)
     text = sky.say("f")
@@ -78,6 +79,7 @@ def test_six_errors_are_found_from_eight_places_and_saved(tmp_path: Path) -> Non
     assert as_toml(found).startswith("[mount.model]\nia_deg")
 
 
+@pytest.mark.long
 def test_points_of_an_earlier_time_count_too() -> None:
     sky = taken(begun(), *PLACES[:2])
     sky.say("f", "y")

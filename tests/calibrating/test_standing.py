@@ -10,6 +10,7 @@ import pytest
 
 from hw.ports import Axis
 from rotator.calibrating.readings import DEGREES, SHARES, ReadingUnit, stands
+from tests.tables import every_row
 
 Start = Callable[..., Any]
 SAYS = "The reading stands still"
@@ -21,10 +22,8 @@ def second(dice: random.Random, speed: float, noise: float, step: float = 0.0, c
     return [round(each / step) * step if step else each for each in seen]
 
 
-@pytest.mark.parametrize(
-    ("unit", "scale"), [(SHARES, 0.9 / 450), (SHARES, 0.9 / 180), (SHARES, 1 / 360), (DEGREES, 1.0)], ids=str
-)
-@pytest.mark.parametrize(("speed_dps", "noise_deg"), [(0.3, 0.0), (0.5, 0.02), (1.0, 0.05), (2.7, 0.1), (30.0, 0.5)])
+@every_row(("unit", "scale"), [(SHARES, 0.9 / 450), (SHARES, 0.9 / 180), (SHARES, 1 / 360), (DEGREES, 1.0)])
+@every_row(("speed_dps", "noise_deg"), [(0.3, 0.0), (0.5, 0.02), (1.0, 0.05), (2.7, 0.1), (30.0, 0.5)])
 def test_what_moves_is_not_said_to_stand(unit: ReadingUnit, scale: float, speed_dps: float, noise_deg: float) -> None:
     seed = random.randrange(10**6)
     dice = random.Random(seed)
@@ -32,8 +31,8 @@ def test_what_moves_is_not_said_to_stand(unit: ReadingUnit, scale: float, speed_
     assert wrong == 0, f"seed {seed}"
 
 
-@pytest.mark.parametrize("noise", [0.0, 0.00002, 0.0002])
-@pytest.mark.parametrize("step", [0.0, 1 / 4096, 1 / 1024])
+@every_row("noise", [0.0, 0.00002, 0.0002])
+@every_row("step", [0.0, 1 / 4096, 1 / 1024])
 def test_what_stands_is_said_to_stand_within_a_second_press(noise: float, step: float) -> None:
     """Looked at twenty times a second, it needs one window in a press of two seconds."""
     seed = random.randrange(10**6)
@@ -42,7 +41,7 @@ def test_what_stands_is_said_to_stand_within_a_second_press(noise: float, step: 
     assert told >= 250, f"seed {seed}"
 
 
-@pytest.mark.parametrize("late", range(2, 10))
+@every_row("late", range(2, 10))
 def test_readings_that_come_late_are_no_standstill(late: int) -> None:
     """From 0.074 to 0.098 in a press of two seconds, on a computer that sleeps for a moment: 6°/s of 450."""
     true = [0.074 + 0.012 * at / 20 for at in range(20)]
@@ -51,6 +50,7 @@ def test_readings_that_come_late_are_no_standstill(late: int) -> None:
         assert not stands(seen)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("axis", ["r", "u"])
 @pytest.mark.parametrize("sim", ["", "speed_dps = 0.5\n"])
 @pytest.mark.parametrize("noise_deg", [0.0, 0.02, 0.1])

@@ -6,6 +6,7 @@ import pytest
 
 from rotator.calibrating.receiver import BadAddress, address
 from rotator.calibrating.strength import NoStrength, question, strength_db, wants_vfo
+from tests.tables import every_row
 
 
 @pytest.mark.parametrize(("answer", "db"), [("-37\n", -37.0), ("0\n", 0.0), ("+12\r\n", 12.0), ("-54.5\n", -54.5)])
@@ -13,7 +14,7 @@ def test_a_strength(answer: str, db: float) -> None:
     assert strength_db(answer) == db
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("answer", "says"),
     [
         ("RPRT -11\n", "has no S meter"),
@@ -38,7 +39,7 @@ def test_one_that_wants_a_vfo_in_each_question_gets_it(answer: str, wants: bool)
     assert b"VFO" not in question(names_vfo=False)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "place"),
     [
         ("127.0.0.1:4540", ("127.0.0.1", 4540)),
@@ -53,7 +54,7 @@ def test_an_address(text: str, place: tuple[str, int]) -> None:
     assert address(text) == place
 
 
-@pytest.mark.parametrize("text", ["", ":4532", "shack:", "shack:x", "shack:0", "shack:70000", "/dev/ttyUSB0:"])
+@every_row("text", ["", ":4532", "shack:", "shack:x", "shack:0", "shack:70000", "/dev/ttyUSB0:"])
 def test_no_address(text: str) -> None:
     with pytest.raises(BadAddress, match=r"write it as 127\.0\.0\.1:4532"):
         address(text)

@@ -110,10 +110,14 @@ class InTerminal(Running):
         give_up_s = time.monotonic() + PATIENCE_S
         while self.process.poll() is None:
             assert time.monotonic() < give_up_s, f"it does not end: {self.rest[-500:]}"
-            ready, _, _ = select.select([self._master], [], [], 0.1)
-            if ready:
-                self._read()
+            self._read_if_ready(0.1)
+        while self._read_if_ready(0.0):  # what it said last
+            pass
         return self.process.wait(timeout=PATIENCE_S)
+
+    def _read_if_ready(self, within_s: float) -> bool:
+        ready, _, _ = select.select([self._master], [], [], within_s)
+        return bool(ready) and self._read()
 
 
 @pytest.fixture

@@ -39,7 +39,7 @@ def test_another_unit_is_a_mistake(what: str, text: str) -> None:
         (["home"], "rotator: one word is missing: azimuth or elevation\n"),
         (["jog"], "rotator: one word is missing: cw or ccw or up or down\n"),
         (["jog", "cw"], "rotator: SECONDS is missing\n"),
-        (["point", "10"], "rotator: ELEVATION is missing\n"),
+        (["point"], "rotator: AZIMUTH is missing\n"),
     ],
 )
 def test_a_word_left_out_is_named_in_a_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:

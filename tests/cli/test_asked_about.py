@@ -62,7 +62,7 @@ def test_both_axes_with_a_fault(scripted: Any, rotator_here: Rotator, config: Pa
     assert [told[axis.value]["angle_is_current"] for axis in Axis] == [False, False]
 
 
-@pytest.mark.parametrize("answers", range(5))
+@pytest.mark.parametrize("answers", [0, 1, 3])
 @pytest.mark.parametrize(
     "words",
     [

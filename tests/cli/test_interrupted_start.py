@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import random
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from release.environment import START
 from rotator.cli import main as commands
 from tests.search import some
-
-Start = Callable[..., Any]
 
 
 def test_a_command_that_is_interrupted_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
@@ -32,18 +27,6 @@ def test_a_command_that_is_interrupted_says_nothing(capsys: pytest.CaptureFixtur
     del commands.cli.commands["interrupted"]
     out, errors = capsys.readouterr()
     assert out + errors.strip() == ""
-
-
-def test_while_the_box_is_built(start: Start, config: Path) -> None:
-    """The box waits for its configuration: the file is a pipe."""
-    config.unlink()
-    os.mkfifo(config)
-    box = start("run", "--config", config)
-    writer = os.open(config, os.O_WRONLY)
-    code = box.stop(signal.SIGINT)
-    os.close(writer)
-    assert code == 130
-    assert box.errors.strip() == ""
 
 
 @pytest.mark.parametrize("command", ["run", "where", "doctor"])

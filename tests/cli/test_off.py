@@ -27,12 +27,17 @@ def test_without_a_gpio_chip_it_says_so(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("kind", "what"),
-    [("moteus", "their own watchdog"), ("servo", "servos hold"), ("digipot", "where their chips point")],
+    [
+        ("moteus", "their own watchdog"),
+        ("servo", "servos hold"),
+        ("digipot", "where their chips point"),
+        ("controller", "its own stop would end that"),
+    ],
 )
 def test_a_rotor_without_relays_has_no_line_touched(tmp_path: Path, kind: str, what: str) -> None:
     # The relays' pins may be anything there.
     config = tmp_path / "rotator.toml"
-    limits = "[azimuth]\nmax_deg = 90\n[elevation]\nmax_deg = 90\n"
+    limits = "[azimuth]\nmax_deg = 90\n[elevation]\nmax_deg = 90\n[controller]\nserial = '/dev/ttyUSB0'\n"
     config.write_text(f'[rotor]\nhardware = "pi"\ntype = "{kind}"\n{limits}')
     result = CliRunner().invoke(cli, ["off", "--config", str(config)])
     assert result.exit_code == 0

@@ -11,7 +11,6 @@ from click.testing import CliRunner, Result
 from rotator.cli import pages
 from rotator.cli.commands import Commands
 from rotator.cli.main import cli
-from rotator.exchange.faults import FaultKind
 
 ROOT = Path(__file__).parents[2]
 SOURCE = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "rotator").rglob("*.py"))]
@@ -20,14 +19,6 @@ NAMED = sorted({words.strip() for text in SOURCE for words in re.findall(r"rotat
 
 def asks(*words: str) -> Result:
     return CliRunner().invoke(cli, ["help", *words])
-
-
-@pytest.mark.parametrize("kind", FaultKind)
-def test_every_fault_has_its_section(kind: FaultKind) -> None:
-    done = asks(kind.anchor)
-    assert done.exit_code == 0
-    assert done.output.startswith(f"### {kind.text}\n")
-    assert done.output.count("### ") == 1, "and no other"
 
 
 @pytest.mark.parametrize("words", NAMED)

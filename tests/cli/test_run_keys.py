@@ -146,7 +146,7 @@ def test_a_command_is_typed_here_as_in_another_terminal(bench: BenchBox, text: s
 
 
 @pytest.mark.parametrize(
-    "text", ["point 180", "point 900 45", "point x", "jog round 1", "track iss", "track qo-100", "home azimuth"]
+    "text", ["point 180 4 5", "point 900 45", "point x", "jog round 1", "track iss", "track qo-100", "home azimuth"]
 )
 def test_a_command_that_is_none_says_why_and_stops_nothing(bench: BenchBox, text: str) -> None:
     told = typed(bench, f"{text}\r").line
@@ -161,7 +161,7 @@ def test_a_question_stops_nothing_either(bench: BenchBox, text: str) -> None:
     assert bench.orders == []
 
 
-@pytest.mark.parametrize("before", ["point", "point 180", "track iss", "rotator", "jog cw"])
+@pytest.mark.parametrize("before", ["point", "point x", "track iss", "rotator", "jog cw"])
 def test_a_second_blank_stops(bench: BenchBox, before: str) -> None:
     keys = typed(bench, f"{before}  ")
     assert bench.orders == [Stop(latch=True)]

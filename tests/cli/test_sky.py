@@ -79,7 +79,7 @@ def test_passes_as_json(tmp_path: Path) -> None:
         (("where", "sun", "--at", "tomorrow"), '"tomorrow" is no date and time such as 2026-11-22T18:30:00Z'),
         (("where", "sun", "--at", "9999-01-01T00:00:00Z"), "is not in the years 1957 to 2100"),
         (("where", "cassa"), '"cassa" is not among the 3 satellites known; perhaps Cas A?'),
-        (("where", "mon"), "perhaps Moon?"),
+        (("where", "mon"), "perhaps Moon or Monaco?"),
         (("passes", "JN58td", "nothing"), '"nothing" is not among'),
         (("passes", "iss", "--hours", "0"), "0 hours: 0.01 at least, 336 at most"),
     ],

@@ -20,6 +20,11 @@ STRAY = st.sampled_from(
     [*"[]{}\"'=#,.;:°\\\t\r\u00a0“”\u200b\0ä*-_ ", "\n", "[[", "]]", '"""', "0,5", "[link]", "\n[link]\n", "= ", "COM3"]
 )
 
+VALUES = [
+    *("0,5", '"x"', "x", "10 deg", "-1e9", "true", "yes", "[]", "[[1, 2]]", "{}", "", "nan", "{ a = 1 }", "[{}]"),
+    *("1979-05-27", '[1, "x", [true]]', "0x48", "inf", '"""\nx\n"""'),
+]
+
 Rows = list[str]
 Clumsy = Callable[[st.DataObject, Rows], None]
 
@@ -63,8 +68,7 @@ def another_value(data: st.DataObject, rows: Rows) -> None:
     at = row(data, rows)
     key, sign, _ = rows[at].partition("=")
     if sign:
-        value = st.sampled_from(["0,5", '"x"', "x", "10 deg", "-1e9", "true", "yes", "[]", "[[1, 2]]", "{}", "", "nan"])
-        rows[at] = f"{key}= {data.draw(value)}"
+        rows[at] = f"{key}= {data.draw(st.sampled_from(VALUES))}"
 
 
 CLUMSY: list[Clumsy] = [delete, double, swap, comma_for_point, stray, lose, another_value]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -33,19 +34,17 @@ def station(tmp_path: Path) -> Path:
     return path
 
 
-def test_all_keys_are_in_the_file(station: Path) -> None:
+def test_all_keys_are_in_the_file_the_rest_stays_and_the_file_before_is_kept(station: Path) -> None:
     save_table(station, "azimuth", calibration=POINTS, min_deg=0.0, max_deg=450.0, direction_checked=True)
     azimuth = load(station).azimuth
     assert azimuth.calibration == [(0.05123, -1.5), (0.4, 200.0), (0.949, 451.25)]
     assert (azimuth.min_deg, azimuth.max_deg, azimuth.direction_checked) == (0.0, 450.0, True)
-
-
-def test_comments_and_everything_else_stay(station: Path) -> None:
-    save_table(station, "azimuth", calibration=POINTS, direction_checked=True)
     after = station.read_text().splitlines()
     untouched = [line for line in STATION.splitlines() if not line.startswith("calibration")]
     assert [line for line in after if line in untouched] == untouched
     assert "# by hand" in station.read_text()
+    assert station.with_name("station.toml.bak").read_text() == STATION
+    assert sorted(path.name for path in station.parent.iterdir()) == ["station.toml", "station.toml.bak"]
 
 
 def test_a_range_that_leaves_the_park_position_out_takes_it_along(station: Path) -> None:
@@ -53,12 +52,6 @@ def test_a_range_that_leaves_the_park_position_out_takes_it_along(station: Path)
     save_table(station, "azimuth", calibration=POINTS, min_deg=200.0, max_deg=451.0)
     assert load(station).park_deg == (200.0, 0.0)
     assert "park_azimuth_deg = 200        # south" in station.read_text()
-
-
-def test_the_file_before_is_kept(station: Path) -> None:
-    save_table(station, "azimuth", calibration=POINTS)
-    assert station.with_name("station.toml.bak").read_text() == STATION
-    assert sorted(path.name for path in station.parent.iterdir()) == ["station.toml", "station.toml.bak"]
 
 
 def test_numbers_are_written_as_a_person_would() -> None:
@@ -94,39 +87,22 @@ def test_any_form_of_file(tmp_path: Path, text: str) -> None:
     assert len(azimuth.calibration) == 3
 
 
-@pytest.mark.parametrize("text", ["", "# only a comment\n"])
-def test_an_emptied_file_does_not_become_the_file_of_a_simulated_station(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "a.toml"
-    path.write_text(text)
-    with pytest.raises(ConfigError, match="is empty"):
-        save_table(path, "azimuth", calibration=POINTS)
-    assert [each.name for each in tmp_path.iterdir()] == ["a.toml"]
-    assert path.read_text() == text
-
-
 @pytest.mark.parametrize(
-    "points", [((0.1, 0.0),), ((0.1, 0.0), (0.1, 9.0)), ((0.1, 5.0), (0.2, 0.0))], ids=["one", "flat", "falling"]
+    ("text", "keys", "said"),
+    [
+        (STATION, {"calibration": ((0.1, 0.0),)}, "calibration"),
+        (STATION, {"calibration": ((0.1, 0.0), (0.1, 9.0))}, "calibration"),
+        (STATION, {"calibration": ((0.1, 5.0), (0.2, 0.0))}, "calibration"),
+        (STATION, {"min_deg": 300.0, "max_deg": 200.0}, "must be below"),
+        ("[azimuth\n", {"calibration": POINTS}, "not TOML"),
+        # An emptied file does not become the file of a simulated station.
+        ("", {"calibration": POINTS}, "is empty"),
+        ("# only a comment\n", {"calibration": POINTS}, "is empty"),
+    ],
 )
-def test_what_would_not_be_accepted_is_not_written(station: Path, points: tuple[tuple[float, float], ...]) -> None:
-    with pytest.raises(ConfigError, match="calibration"):
-        save_table(station, "azimuth", calibration=points)
-    assert station.read_text() == STATION
+def test_what_would_not_be_accepted_is_not_written(station: Path, text: str, keys: dict[str, Any], said: str) -> None:
+    station.write_text(text)
+    with pytest.raises(ConfigError, match=said):
+        save_table(station, "azimuth", **keys)
+    assert station.read_text() == text
     assert [path.name for path in station.parent.iterdir()] == ["station.toml"]
-
-
-def test_limits_that_make_no_sense_are_not_written(station: Path) -> None:
-    with pytest.raises(ConfigError, match="must be below"):
-        save_table(station, "azimuth", calibration=POINTS, min_deg=300.0, max_deg=200.0)
-    assert station.read_text() == STATION
-
-
-def test_a_file_broken_meanwhile_is_left_alone(station: Path) -> None:
-    station.write_text("[azimuth\n")
-    with pytest.raises(ConfigError, match="not TOML"):
-        save_table(station, "azimuth", calibration=POINTS)
-    assert station.read_text() == "[azimuth\n"
-
-
-def test_a_file_gone_meanwhile(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError):
-        save_table(tmp_path / "none.toml", "azimuth", calibration=POINTS)

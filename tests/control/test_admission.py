@@ -28,6 +28,7 @@ from rotator.exchange.orders import (
     Stop,
 )
 from rotator.exchange.status import AxisStatus, Status
+from tests.tables import every_row
 
 MOUNT = Mount(Range(0, 350), Range(0, 180))
 ALWAYS: list[Order] = [
@@ -58,15 +59,13 @@ def refused(order: Order, *, azimuth: Lacks = (), elevation: Lacks = (), moving:
     return answer.reason if answer else ""
 
 
-@pytest.mark.parametrize(
-    "order", [*ALWAYS, Aim(235, 25), Aim(235, None), Park(), LoadTimed(1, ((10, 20),)), RunTimed()]
-)
+@every_row("order", [*ALWAYS, Aim(235, 25), Aim(235, None), Park(), LoadTimed(1, ((10, 20),)), RunTimed()])
 def test_a_commissioned_box_takes_every_order_it_can_carry_out(order: Order) -> None:
     assert not refused(order)
     assert not refused(order, moving=True)
 
 
-@pytest.mark.parametrize("order", ALWAYS, ids=str)
+@every_row("order", ALWAYS)
 def test_stop_release_and_jog_are_never_refused(order: Order) -> None:
     assert not refused(order, azimuth=(Missing.CALIBRATION,), elevation=(Missing.CALIBRATION,), moving=True)
 
@@ -74,9 +73,7 @@ def test_stop_release_and_jog_are_never_refused(order: Order) -> None:
 # --- an axis that was never commissioned
 
 
-@pytest.mark.parametrize(
-    "order", [Aim(235, 25), Aim(235, None), Aim(235, 25, engaged=False), Park(), LoadTimed(1, ((10, 20),))], ids=str
-)
+@every_row("order", [Aim(235, 25), Aim(235, None), Aim(235, 25, engaged=False), Park(), LoadTimed(1, ((10, 20),))])
 def test_an_uncalibrated_box_is_not_aimed_and_says_what_is_missing(order: Order) -> None:
     reason = refused(
         order,
@@ -101,8 +98,8 @@ def test_an_order_that_needs_an_uncalibrated_axis_is_refused() -> None:
 FAULT = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "three times")
 
 
-@pytest.mark.parametrize("axis", list(Axis))
-@pytest.mark.parametrize(
+@every_row("axis", list(Axis))
+@every_row(
     ("order", "needs"),
     [
         (Aim(235, 25), (Axis.AZIMUTH, Axis.ELEVATION)),
@@ -119,7 +116,6 @@ FAULT = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "three times")
         (Stop(), ()),
         (Release(), ()),
     ],
-    ids=str,
 )
 def test_while_a_fault_stops_an_axis_an_order_that_needs_it_is_refused(
     order: Order, needs: tuple[Axis, ...], axis: Axis
@@ -160,7 +156,7 @@ def test_an_elevation_that_rests_at_its_limit_or_names_a_direction_is_admitted()
     assert not refused(Aim(100, 150))
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("order", "reason"),
     [
         (Aim(541, 10), "azimuth 541 is outside -180 to 540 degrees"),
@@ -170,7 +166,6 @@ def test_an_elevation_that_rests_at_its_limit_or_names_a_direction_is_admitted()
         (Aim(None, 181), "elevation 181 is outside -90 to 180 degrees"),
         (LoadTimed(1, ((10, 20), (20, 200))), "elevation 200 is outside -90 to 180 degrees"),
     ],
-    ids=str,
 )
 def test_no_program_may_send_an_angle_that_no_rotor_has(order: Order, reason: str) -> None:
     answer = refusal(order, status(), MOUNT)
@@ -267,8 +262,8 @@ def test_relays_are_looked_at_only_where_it_matters_and_the_axis_stands() -> Non
         assert relays_checked(replace(doubted, moving=True)), "not while it turns"
 
 
-@pytest.mark.parametrize("storm", [False, True])
-@pytest.mark.parametrize(
+@every_row("storm", [False, True])
+@every_row(
     ("park_deg", "told"),
     [
         ((355.0, 0.0), "azimuth 355 is outside the rotor's range of 0 to 350 degrees"),

@@ -11,6 +11,7 @@ from rotator.control.sky.known_path import KnownPath
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly
 from rotator.exchange.orders import BOTH, Aim, Jog, Leave, LoadTimed, Nudge, Order, Park, Stop
 from rotator.exchange.sources import Source
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PANEL = Source("panel")
@@ -104,8 +105,9 @@ REFUSED: list[Order] = [
 ]
 
 
-@pytest.mark.parametrize("order", REFUSED, ids=lambda order: type(order).__name__)
-@pytest.mark.parametrize("streams", [False, True])
+@pytest.mark.long
+@every_row("order", REFUSED)
+@every_row("streams", [False, True])
 def test_what_is_refused_leaves_the_order_in_force_as_it_is_and_as_it_is_shown(
     new_desk: Any, order: Order, streams: bool
 ) -> None:

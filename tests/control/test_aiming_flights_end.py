@@ -94,6 +94,7 @@ def turned_deg(desk: Any, seconds: float) -> tuple[float, float]:
     return abs(desk.angle_deg[AZ] - azimuth_deg), abs(desk.angle_deg[EL] - elevation_deg)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("axis", Axis)
 def test_after_a_fault_and_resume_neither_axis_flies_on(either: Any, axis: Axis) -> None:
     fly(either)
@@ -107,6 +108,7 @@ def test_after_a_fault_and_resume_neither_axis_flies_on(either: Any, axis: Axis)
     assert max(turned_deg(either, 100.0)) < COASTS_DEG
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ended_by", [Stop(), Release(), Jog(AZ, Direction.PLUS, 0.1), Aim(110.0, 20.0)], ids=str)
 @pytest.mark.parametrize("runs_deg", [0.0, -20.0])
 def test_what_was_ordered_stays_shown_through_a_fault_until_a_person_or_an_order_ends_it(
@@ -158,6 +160,7 @@ def test_an_order_out_of_reach_leaves_the_flight_as_it_was(new_desk: Any) -> Non
     assert desk.angle_deg[AZ] == pytest.approx(121.5, abs=5.0), "it goes on, and says so"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("azimuth_alone", [True, False])
 def test_an_order_for_one_axis_ends_the_flight_of_the_other(either: Any, azimuth_alone: bool) -> None:
     fly(either)
@@ -167,6 +170,7 @@ def test_an_order_for_one_axis_ends_the_flight_of_the_other(either: Any, azimuth
     assert max(turned_deg(either, 60.0)) < 0.1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", [Stop(), Stop(latch=True), LetGo(), Jog(AZ, Direction.PLUS, 1.0)], ids=str)
 def test_what_ends_a_flight_ends_it_on_both_axes(either: Any, order: Any) -> None:
     fly(either)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim
 from tests.search import examples
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 TOLERANCE_DEG = 4.0
@@ -20,8 +21,8 @@ NOISE_DEG = 0.05
 """Arithmetic; the desk's pots have no noise."""
 
 
-@pytest.mark.parametrize("elevation_deg", [10.0, 60.0, 85.0])
-@pytest.mark.parametrize(("off_deg", "starts"), [(3.9, False), (4.1, True), (-3.9, False), (-4.1, True)])
+@every_row("elevation_deg", [10.0, 60.0, 85.0])
+@every_row(("off_deg", "starts"), [(3.9, False), (4.1, True), (-3.9, False), (-4.1, True)])
 def test_four_degrees_are_four_degrees_at_every_elevation(
     new_desk: Any, elevation_deg: float, off_deg: float, starts: bool
 ) -> None:
@@ -36,6 +37,7 @@ def test_on_the_sky_the_same_error_starts_no_motor_high_up(new_desk: Any) -> Non
     assert desk.step(Aim(107.0, 60.0))[AZ] is Direction.OFF
 
 
+@pytest.mark.long
 @settings(max_examples=examples(30), deadline=None)
 @given(
     st.floats(20, 400),

@@ -61,6 +61,7 @@ def test_two_jogs_at_once_do_not_cut_its_corner(new_desk: Any) -> None:
     assert desk.angle_deg[AZ] < 100 or desk.angle_deg[EL] > 35, "one of the two has ended"
 
 
+@pytest.mark.long
 @given(
     lag_s=st.floats(0.02, UNSEEN_LAG_S),
     from_deg=st.floats(45.0, 97.0),

@@ -9,9 +9,8 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.positioned import PositionedAxis
 from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.settings import PositionedSettings
-from rotator.control.commands import HOLD, Command, Run, Steer
+from rotator.control.commands import HOLD, Command, Steer
 from rotator.control.fence import Fence
-from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Mount, Range, Sector
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -86,33 +85,6 @@ def test_beside_the_sector_a_jog_into_it_does_not_begin_and_one_away_does(
     assert isinstance(steered.step()[AZ], Steer)
 
 
-def test_above_the_sector_it_passes() -> None:
-    steered = Steered(60.0, 60.0)
-    steered.axes[AZ].jog(PLUS, None, steered.now_s)
-    steered.step(5.0)
-    assert steered.angle_deg[AZ] > 140.0
-    assert steered.notices(AZ) == []
-
-
-def test_what_holds_a_jog_back_is_said_for_three_seconds() -> None:
-    steered = Steered(97.2)
-    steered.axes[AZ].jog(PLUS, None, steered.now_s)
-    steered.step()
-    steered.step(2.8)
-    assert steered.notices(AZ) == ["stopped before the tower"]
-    assert steered.notices(EL) == []
-    steered.step(0.3)
-    assert steered.notices(AZ) == []
-
-
-def test_a_target_inside_is_held_back_before_it_and_stays_its_target() -> None:
-    steered = Steered(97.2)
-    steered.axes[AZ].aim(AimGoal(115.0, 1.0))
-    assert steered.step()[AZ] is HOLD
-    assert steered.axes[AZ].aiming is not None
-    assert steered.notices(AZ) == [], "the way round is found elsewhere, and said there"
-
-
 def test_an_axis_whose_angle_is_not_known_holds_the_other_back_and_is_named() -> None:
     steered = Steered(60.0, 60.0)
     steered.dead.add(EL)
@@ -130,19 +102,3 @@ def test_an_axis_whose_angle_is_not_known_holds_the_other_back_and_is_named() ->
     assert steered.notices(AZ) == [
         "does not turn: the angle of elevation is not known, and the tower may be in the way"
     ]
-
-
-def test_from_inside_one_axis_leads_out_and_the_other_stands() -> None:
-    steered = Steered(105.0, 10.0)
-    steered.axes[AZ].aim(AimGoal(60.0, 1.0))
-    steered.axes[EL].aim(AimGoal(60.0, 1.0))
-    commands = steered.step()
-    assert sum(command is HOLD for command in commands.values()) == 1
-
-
-def test_without_sectors_every_command_passes_as_it_is() -> None:
-    steered = Steered(60.0, sectors=())
-    steered.axes[AZ].aim(AimGoal(115.0, 1.0))
-    assert steered.step()[AZ] == Steer(115.0, 0.0, pytest.approx(steered.now_s + 0.25))  # type: ignore[arg-type]
-    wishes: dict[Axis, Command] = {AZ: Run(OFF, 1.0), EL: HOLD}
-    assert steered.fence.passed(steered.now_s, wishes) == wishes

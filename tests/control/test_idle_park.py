@@ -24,33 +24,10 @@ def parks_at(idle: IdlePark, *, until_s: float, busy: tuple[tuple[float, float],
     return None
 
 
-def test_before_the_first_order_it_does_not_park(idle: IdlePark) -> None:
-    assert parks_at(idle, until_s=300.0, busy=((20.0, 30.0),)) is None
-
-
 def test_where_the_file_asks_for_no_idle_time_it_does_not_park() -> None:
     idle = IdlePark(0.0)
     idle.ordered(0.0)
     assert parks_at(idle, until_s=300.0) is None
-
-
-@pytest.mark.parametrize(
-    ("busy", "at_s"),
-    [
-        ((), 60.0),
-        (((0.0, 30.0),), 89.0),  # the last second in which it turned was 29
-        (((0.0, 200.0),), 259.0),
-        (((5.0, 30.0),), 89.0),  # its relay waited for 5 s
-        (((0.0, 30.0), (35.0, 40.0)), 99.0),
-        (((0.0, 30.0), (60.0, 62.0)), 89.0),  # the wind turned it, long after it had arrived
-        (((50.0, 70.0),), 70.0),  # the wind turns it as the idle time ends: it comes to rest first
-    ],
-)
-def test_the_idle_time_begins_when_the_order_has_been_carried_out(
-    idle: IdlePark, busy: tuple[tuple[float, float], ...], at_s: float
-) -> None:
-    idle.ordered(0.0)
-    assert parks_at(idle, until_s=400.0, busy=busy) == at_s
 
 
 def test_a_motor_that_starts_within_ten_seconds_still_carries_out_the_order(idle: IdlePark) -> None:
@@ -58,13 +35,6 @@ def test_a_motor_that_starts_within_ten_seconds_still_carries_out_the_order(idle
     assert not idle.due(CONTINUES_S, busy=True)
     assert not idle.due(CONTINUES_S + AFTER_S - 1.0, busy=False)
     assert idle.due(CONTINUES_S + AFTER_S, busy=False)
-
-
-def test_each_order_begins_it_anew(idle: IdlePark) -> None:
-    for now_s in (0.0, 50.0, 100.0):
-        idle.ordered(now_s)
-        assert not idle.due(now_s + AFTER_S - 1.0, busy=False)
-    assert idle.due(100.0 + AFTER_S, busy=False)
 
 
 def test_after_an_end_it_waits_for_the_next_order_even_while_the_antenna_is_busy(idle: IdlePark) -> None:

@@ -46,51 +46,6 @@ def jogs(axes: dict[Axis, TurningAxis]) -> Jogs:
     return Jogs(cast(dict[Axis, ControlledAxis], axes))
 
 
-def test_a_jog_goes_to_its_axis_as_it_was_ordered(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
-    jogs.begin(Jog(EL, PLUS, 1.5), LINK, 20.0)
-    assert axes[EL].begun == [(PLUS, 1.5, 20.0)]
-    assert axes[AZ].begun == []
-
-
-def test_one_without_a_time_ends_with_its_connection(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
-    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
-    for stranger in (AGAIN, OTHER):
-        jogs.end(stranger)
-        assert axes[AZ].begun, "it belongs to another connection"
-    jogs.end(LINK)
-    assert not axes[AZ].begun
-
-
-def test_one_with_a_time_ends_by_itself(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
-    jogs.begin(Jog(AZ, PLUS, 30.0), LINK, 20.0)
-    jogs.end(LINK)
-    assert axes[AZ].begun
-
-
-def test_the_latest_jog_of_an_axis_counts(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
-    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
-    jogs.begin(Jog(AZ, PLUS, None), OTHER, 21.0)
-    jogs.end(LINK)
-    assert axes[AZ].begun, "another connection turns it now"
-    jogs.end(OTHER)
-    assert not axes[AZ].begun
-
-
-def test_both_axes_of_one_connection_end(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
-    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
-    jogs.begin(Jog(EL, PLUS, None), LINK, 20.0)
-    jogs.end(LINK)
-    assert not axes[AZ].begun
-    assert not axes[EL].begun
-
-
-def test_an_axis_that_does_something_else_by_now_goes_on(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
-    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
-    axes[AZ].jog_is_held = False  # it aims
-    jogs.end(LINK)
-    assert axes[AZ].begun
-
-
 def test_a_link_s_presses_on_an_axis_that_is_not_commissioned_make_one_turn_of_two_seconds(
     jogs: Jogs, axes: dict[Axis, TurningAxis]
 ) -> None:

@@ -55,6 +55,7 @@ def parks(desk: Any) -> bool:
 # --- the four cases
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", [Aim(300.0, 30.0), Jog(AZ, PLUS), Jog(AZ, PLUS, 30.0)], ids=str)
 def test_a_motion_that_takes_longer_than_the_idle_time_is_carried_out_first(mast: Any, order: Order) -> None:
     mast.step(order)
@@ -108,6 +109,7 @@ def test_what_was_halted_because_its_sender_was_lost_does_not_park(mast: Any, se
     assert parks(mast), "an order begins the idle time again"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mode", [Mode.MANUAL, Mode.JOG], ids=str)
 @pytest.mark.parametrize("person", [PANEL, CONSOLE, BROWSER], ids=str)
 def test_in_a_mode_of_a_person_it_does_not_park_nor_when_that_ends(mast: Any, person: Source, mode: Mode) -> None:
@@ -189,7 +191,8 @@ class Judge:
 
     def _moves(self, desk: Any, order: Order) -> None:
         self.may_park, self.list_s = True, -math.inf
-        if desk.status.timed_point and isinstance(order, RunTimed):
+        # A fault that stands ends the list at its first point.
+        if desk.status.timed_point and isinstance(order, RunTimed) and not desk.status.faults:
             interval_s, count = self.loaded
             if desk.status.timed_point < count:  # at its last point it has ended, perhaps long before this order
                 self.list_s = desk.now_s + (count - desk.status.timed_point - 1) * interval_s
@@ -283,6 +286,7 @@ def play(desk: Any, script: list[tuple[Source, Order | str, float]]) -> None:
         assert parks(desk), "does not park"
 
 
+@pytest.mark.long
 @settings(max_examples=examples(60), deadline=None)
 @given(script=scripts, counted=st.booleans())
 @example(script=[(LINK, Aim(300.0, 30.0), 25.0)], counted=False)

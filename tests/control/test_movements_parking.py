@@ -75,6 +75,7 @@ def test_so_long_after_the_last_order_it_parks_once() -> None:
     assert station.plant.relay_starts() == starts
 
 
+@pytest.mark.long
 def test_an_antenna_that_waits_for_its_target_is_not_idle() -> None:
     """A satellite rises after three times as long; once it has set for so long, the antenna parks."""
     station = Station()
@@ -144,6 +145,7 @@ def test_a_storm_park_that_was_not_stopped_goes_on_after_resume() -> None:
     assert station.at(*PARKED)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("held", "released"),
     [

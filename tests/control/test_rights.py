@@ -38,6 +38,7 @@ from rotator.exchange.orders import (
     Take,
 )
 from rotator.exchange.sources import Source
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
@@ -237,8 +238,8 @@ def did_its_own(desk: Any, deed: Deed, state: State) -> bool:
             return LetGo() in errands and bool(status.latched)
 
 
-@pytest.mark.parametrize("deed", Deed, ids=lambda deed: deed.name)
-@pytest.mark.parametrize("state", State, ids=lambda state: state.name)
+@every_row("deed", Deed)
+@every_row("state", State)
 def test_each_cell(new_desk: Any, state: State, deed: Deed) -> None:
     effect = TABLE[state][deed]
     desk, twin = in_state(new_desk, state), in_state(new_desk, state)
@@ -281,7 +282,7 @@ def test_each_cell(new_desk: Any, state: State, deed: Deed) -> None:
             assert did_its_own(desk, deed, state), "and it stays so"
 
 
-@pytest.mark.parametrize("state", State, ids=lambda state: state.name)
+@every_row("state", State)
 def test_a_nudge_is_kept_for_the_orders_to_come(new_desk: Any, state: State) -> None:
     """In every state; only the mode switch forgets it."""
     desk = in_state(new_desk, state)
@@ -306,7 +307,7 @@ HOLDING = [
 ]
 
 
-@pytest.mark.parametrize("state", HOLDING, ids=lambda state: state.name)
+@every_row("state", HOLDING)
 def test_what_holds_the_antenna_back_from_a_link_holds_its_calibration_too(new_desk: Any, state: State) -> None:
     desk = new_desk(at=(5.0, 35.0), park=PARKED, attended=state is State.CALIBRATING)
     desk.step()

@@ -7,6 +7,7 @@ import random
 import pytest
 
 from rotator.control.seen_turning import SeenTurning
+from tests.tables import every_row
 
 
 def seen(speed_dps: float, noise_deg: float = 0.0, seconds: float = 2.0, seed: int = 1) -> list[float]:
@@ -26,8 +27,8 @@ def test_the_speed_is_shown_after_a_second(speed_dps: float) -> None:
     assert speeds[-1] == pytest.approx(speed_dps)
 
 
-@pytest.mark.parametrize("noise_deg", [0.05, 0.2, 1.0])
-@pytest.mark.parametrize("seed", range(5))
+@every_row("noise_deg", [0.05, 0.2, 1.0])
+@every_row("seed", range(5))
 def test_noise_turns_nothing(noise_deg: float, seed: int) -> None:
     assert set(seen(0.0, noise_deg, 60.0, seed)) == {0.0}
 

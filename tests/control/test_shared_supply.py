@@ -17,6 +17,7 @@ from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import ALL_OPEN, Trust, Trusts
 from rotator.exchange.orders import Aim, Jog, Order, Park, RelaysChecked, Release, Stop
 from rotator.exchange.sources import Source
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PERSON, CYCLE_S = Source("console", 1), 0.05
@@ -60,9 +61,10 @@ def other(axis: Axis) -> Axis:
     return EL if axis is AZ else AZ
 
 
-@pytest.mark.parametrize("trusts", FOUND)
-@pytest.mark.parametrize("found", Axis)
-@pytest.mark.parametrize("name", ORDERS)
+@pytest.mark.long
+@every_row("trusts", FOUND)
+@every_row("found", Axis)
+@every_row("name", ORDERS)
 def test_no_order_feeds_the_other_axis_and_it_is_said_why(name: str, found: Axis, trusts: Trusts) -> None:
     desk = Desk(found, trusts)
     for _ in range(3):
@@ -91,8 +93,8 @@ def test_its_own_axis_may_be_jogged_in_the_direction_of_the_weld(found: Axis) ->
     assert desk.fed[found]
 
 
-@pytest.mark.parametrize("trusts", [ALL_OPEN, (Trust.DOUBTED, Trust.OPEN), (Trust.UNSEEN, Trust.UNSEEN)])
-@pytest.mark.parametrize("found", Axis)
+@every_row("trusts", [ALL_OPEN, (Trust.DOUBTED, Trust.OPEN), (Trust.UNSEEN, Trust.UNSEEN)])
+@every_row("found", Axis)
 def test_a_doubt_alone_keeps_the_other_axis_from_nothing(found: Axis, trusts: Trusts) -> None:
     desk = Desk(found, trusts)
     desk.run(5.0, ORDERS["jog"](other(found)))

@@ -36,6 +36,7 @@ def flown(desk: Any, gap_s: float | None) -> tuple[int, float]:
     return starts, sum(errors_deg[30:]) / 90
 
 
+@pytest.mark.long
 def test_in_one_read_they_are_one_order(new_desk: Any) -> None:
     plain_desk, desk = new_desk(), new_desk()
     for each in (plain_desk, desk):

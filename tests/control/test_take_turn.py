@@ -33,6 +33,7 @@ def waits(desk: Any) -> Any:
     return desk
 
 
+@pytest.mark.long
 def test_the_antenna_goes_to_the_other_turn_and_follows_the_stream_there(waits: Any) -> None:
     waits.step(turn(waits, 380.0))
     stream(waits, 70, 20.0)
@@ -69,6 +70,7 @@ def test_over_the_top_where_the_pass_needs_it(desk: Any) -> None:
     assert desk.angle_deg[EL] == pytest.approx(180.0, abs=4.5)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", [Stop(), Park(), Jog(AZ, Direction.PLUS, 1.0), Nudge(AZ, 5.0), Aim(20.0, 30.0)])
 def test_it_is_ignored_where_another_order_has_come_meanwhile(waits: Any, order: Order) -> None:
     waits.step(order)
@@ -92,6 +94,7 @@ def test_it_is_ignored_where_the_stream_is_elsewhere_or_has_ended(waits: Any) ->
     assert waits.angle_deg[AZ] < 40.0
 
 
+@pytest.mark.long
 def test_an_order_for_another_target_goes_the_near_way(waits: Any) -> None:
     waits.step(turn(waits, 380.0, lasts_s=1000.0))
     stream(waits, 70, 20.0)

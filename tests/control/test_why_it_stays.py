@@ -12,6 +12,7 @@ from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Mode, Order, SetMode, Stop, Take
 from rotator.exchange.sources import Source
 from rotator.protocols.console_session import report
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 LINK, PANEL, PAGE = Source("gs232b", 1), Source("panel"), Source("page", 1)
@@ -55,7 +56,7 @@ REASONS: dict[str, tuple[dict[str, Any], tuple[tuple[Source, Order], ...], Aim, 
 }
 
 
-@pytest.mark.parametrize("reason", REASONS)
+@every_row("reason", REASONS)
 def test_the_reason_is_told(new_desk: Any, reason: str) -> None:
     keys, before, aim, told = REASONS[reason]
     desk = new_desk(**keys)

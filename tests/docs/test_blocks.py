@@ -26,6 +26,7 @@ from docs.blocks import PROMPTS, ROOT, Step, every_step, matches, steps
 from rotator.cli.main import cli
 from rotator.config.load import shipped
 from tests.boxes import free_port
+from tests.tables import every_row
 
 PATIENCE_S = 30.0
 PAGES = sorted({step.page for step in every_step() if step.prompt == "$"})
@@ -93,6 +94,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Bench]:
             box.communicate(timeout=PATIENCE_S)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("page", PAGES)
 def test_the_commands_of_a_page_do_what_it_shows(
     page: str, bench: Bench, need_program: Callable[[str, str], str]
@@ -120,9 +122,7 @@ def options_of(words: list[str]) -> None:
     command.make_parser(context).parse_args(words)
 
 
-@pytest.mark.parametrize(
-    "step", [step for step in every_step() if step.prompt != "$"], ids=lambda step: step.command[:40]
-)
+@every_row("step", [step for step in every_step() if step.prompt != "$"])
 def test_a_command_that_is_not_run_is_at_least_one_that_there_is(step: Step) -> None:
     command = step.command.split(" #")[0].strip()
     if ours := OURS.match(command.replace("sudo -u rotator ", "sudo ")):

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 from docs import commands
 from rotator.cli.main import cli
+from tests.tables import every_row
 
 
 def every(command: click.Command, words: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], click.Command]]:
@@ -28,7 +29,7 @@ def test_the_page_is_what_the_program_says() -> None:
     assert commands.PAGE.read_text(encoding="utf-8") == commands.page()
 
 
-@pytest.mark.parametrize("words", EVERY, ids=" ".join)
+@every_row("words", EVERY)
 def test_help_fits_on_80_columns_and_has_an_example(words: tuple[str, ...]) -> None:
     text = CliRunner().invoke(cli, [*words, "--help"], terminal_width=80).output
     assert max(map(len, text.splitlines())) <= 80
@@ -43,7 +44,7 @@ def test_each_command_has_one_row_in_the_list(words: tuple[str, ...]) -> None:
         assert row.endswith(".")
 
 
-@pytest.mark.parametrize("words", EVERY, ids=" ".join)
+@every_row("words", EVERY)
 def test_each_example_is_understood(words: tuple[str, ...]) -> None:
     """As far as its words go: nothing is carried out."""
     examples = (EVERY[words].epilog or "").splitlines()

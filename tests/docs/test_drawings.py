@@ -13,7 +13,6 @@ from docs.drawings.__main__ import pictures
 from docs.drawings.album import profile, sheets
 from docs.drawings.header import GPIO_PINS
 from docs.drawings.inspect import complaints
-from docs.drawings.parts import chip
 from docs.drawings.route import Routed, route
 from docs.drawings.sheet import Sheet
 from docs.drawings.svg import svg
@@ -191,11 +190,3 @@ def test_the_header_is_the_one_in_the_table_of_the_wiring_page() -> None:
     rows = re.findall(r"\| (\d+)(?: \(S\w+\))? \| (\d+)\b", page)
     assert len(rows) >= 13
     assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin in rows)
-
-
-def boxes(*wires: tuple[str, str], gap: int = 200) -> Sheet:
-    sheet = Sheet("test", "two boxes", 400)
-    sheet.put(chip("a", "A", (100, 100), 100, right=["1", "2"]), chip("b", "B", (200 + gap, 100), 100, ["1", "2"]))
-    for pins in wires:
-        sheet.wire("black", *pins)
-    return sheet

@@ -14,6 +14,7 @@ from docs.drawings.figures import (
     OneShot,
     divided_v,
 )
+from tests.tables import every_row
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -41,7 +42,7 @@ def test_the_page_says_what_the_one_shot_does() -> None:
     assert "0.62 s" in text
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("socket_v", "adc_v"),
     [(0.20, 0.128), (2.20, 1.410), (4.20, 2.692), (4.50, 2.885), (5.00, 3.205)],
 )

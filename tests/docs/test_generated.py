@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import pytest
-
 from docs.generate import DOCS, PARTS, renewed
+from tests.tables import every_row
 
 
-@pytest.mark.parametrize("page", PARTS)
+@every_row("page", PARTS)
 def test_the_page_is_what_the_program_makes(page: str) -> None:
     """If this fails: make reference."""
     text = (DOCS / page).read_text(encoding="utf-8")

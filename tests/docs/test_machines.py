@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import pytest
+from tests.tables import every_row
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "machines.md").read_text(encoding="utf-8")
@@ -21,7 +21,7 @@ def test_every_item_says_what_shows_it() -> None:
         assert "T" not in re.findall(r"\b[DTW]\b", shown) or NAMED.search(shown) or "Panel" in shown, asked
 
 
-@pytest.mark.parametrize("name", sorted(set(NAMED.findall(PAGE))))
+@every_row("name", sorted(set(NAMED.findall(PAGE))))
 def test_what_it_names_is_there(name: str) -> None:
     if name.startswith("tests/"):
         assert (ROOT / name).exists()

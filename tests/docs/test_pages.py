@@ -21,10 +21,25 @@ from rotator.config.load import shipped
 from rotator.config.model import Config
 from rotator.exchange.faults import FaultKind
 from rotator.panel.ladder import LEVELS
+from tests.tables import every_row
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [str(path.relative_to(DOCS)) for path in sorted(DOCS.rglob("*.md"))]
-BUILDS = {"g5500", "f1efw", "u100", "isel", "servos", "orbit360"}
+BUILDS = {
+    "g5500",
+    "g450",
+    "g1000",
+    "ham4",
+    "f1efw",
+    "u100",
+    "tv-rotator",
+    "isel",
+    "servos",
+    "orbit360",
+    "slew-drive",
+    "controller",
+    "satnogs",
+}
 """Shipped configurations with a page of their own, from parts to the first pass."""
 
 
@@ -38,7 +53,7 @@ def anchors(name: str) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-@pytest.mark.parametrize("page", [*PAGES, "../README.md"])
+@every_row("page", [*PAGES, "../README.md"])
 def test_every_link_leads_somewhere(page: str) -> None:
     folder = (DOCS / page).parent
     for target in re.findall(r"\]\((?!https?:)([^)]+)\)", text(page)):
@@ -96,13 +111,13 @@ def fragments() -> list[tuple[str, str]]:
     ]
 
 
-@pytest.mark.parametrize(("page", "fragment"), fragments())
+@every_row(("page", "fragment"), fragments())
 def test_every_piece_of_a_file_is_one_that_the_box_takes(page: str, fragment: str) -> None:
     kind = 'rotor.type = "digipot"\n' if page.endswith("orbit360.md") else ""
     Config.model_validate(tomllib.loads(kind + fragment))
 
 
-@pytest.mark.parametrize("build", sorted(BUILDS))
+@every_row("build", sorted(BUILDS))
 def test_page_and_configuration_name_each_other(build: str) -> None:
     page = f"paths/{build}.md"
     assert f"--profile {build}" in text(page)
@@ -111,7 +126,7 @@ def test_page_and_configuration_name_each_other(build: str) -> None:
         assert f"]({page})" in text(other)
 
 
-@pytest.mark.parametrize("build", ["u100", "orbit360"])
+@pytest.mark.parametrize("build", ["u100", "tv-rotator", "orbit360", "ham4", "slew-drive"])
 def test_each_gpio_on_the_page_is_the_profiles_and_at_that_pin_of_the_header(build: str) -> None:
     """Tables: what, GPIO, header pin, perhaps more, key."""
     rows = re.findall(r"^[^|]+ \| (\d+) \| (\d+) \|(?:[^|]+\|)? `([\w.]+)`$", text(f"paths/{build}.md"), re.MULTILINE)
@@ -129,6 +144,16 @@ def test_the_servos_table_names_what_the_profile_has() -> None:
     assert f"at 0x{servo.address:02x}" in page
 
 
+def test_the_steppers_table_names_the_lines_of_the_profile() -> None:
+    config = profile("satnogs")
+    rows = re.findall(r"^[^|]+ \| (\d+) \| (\d+) \| `([\w.]+)`$", text("paths/satnogs.md"), re.MULTILINE)
+    rows += re.findall(r"^(?:SCK|SDI|SDO) of both \| (\d+) \| (\d+)()$", text("paths/satnogs.md"), re.MULTILINE)
+    assert {int(gpio) for gpio, _, _ in rows} == {pin for pin, _ in config.pins()}
+    assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin, _ in rows)
+    keyed = {key: int(gpio) for gpio, _, key in rows if key}
+    assert keyed == {key: pin for pin, key in config.pins() if key in keyed}
+
+
 def test_the_moteus_page_sets_the_ids_of_the_profile() -> None:
     moteus = profile("isel").moteus
     assert f"`id.id` | {moteus.azimuth.id} | {moteus.elevation.id} |" in text("paths/isel.md")
@@ -140,7 +165,7 @@ def test_the_panels_table_names_its_gpios() -> None:
     assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin, _, _ in rows)
 
 
-@pytest.mark.parametrize("build", ["f1efw", "g5500", "spid", "u100", "isel", "servos"])
+@every_row("build", ["f1efw", "g5500", "spid", "u100", "isel", "servos"])
 def test_the_panels_gpios_are_free_beside_every_profile_but_that_of_the_digital_pots(build: str) -> None:
     used = {pin for pin, key in profile(build).pins() if not key.startswith("panel.")}
     assert not used & {*PANEL.switches.values(), *LIMITS.switches.values()}
@@ -169,13 +194,18 @@ def test_the_sensors_page_has_tables_that_the_file_accepts() -> None:
     assert config.compass.kind == "bno055"
 
 
+def test_the_compass_page_has_a_file_that_is_accepted() -> None:
+    config = Config.model_validate(settings("compass.md"))
+    assert config.azimuth.sensor.kind == "qmc5883l"
+
+
 def test_the_digital_pots_points_are_ones_that_the_file_accepts() -> None:
     values = tomllib.loads(shipped("orbit360"))
     values["digipot"]["azimuth"] |= settings("paths/orbit360.md")["digipot"]["azimuth"]
     assert len(Config.model_validate(values).digipot.azimuth.steps) == 5
 
 
-@pytest.mark.parametrize("kind", FaultKind, ids=lambda kind: kind.text)
+@every_row("kind", FaultKind)
 def test_every_fault_has_its_heading_and_anchor(kind: FaultKind) -> None:
     assert f"\n### {kind.text}\n" in text("troubleshooting.md")
     assert kind.anchor in anchors("troubleshooting.md")

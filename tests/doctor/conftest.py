@@ -111,7 +111,7 @@ class Pi:
         chips = Chips(
             lambda: world.gpio,
             world.gpio.paths(),
-            lambda number: SmbusI2C(StaysOpen(world.bus), f"/dev/i2c-{number}"),
+            lambda number: SmbusI2C(StaysOpen(world.i2c(number)), f"/dev/i2c-{number}"),
             clock,
             clock.sleep,
             lambda config: ask_in_step(config, cast(Any, world).transport(), clock),
@@ -132,7 +132,7 @@ class Pi:
 
     def looks_at(self, name: str) -> bool:
         """Whether this configuration has anything of the kind."""
-        return next(check.concerns(self.config) for check in OF_THE_STATION if check.name == name)
+        return next(bool(check.concerns(self.config)) for check in OF_THE_STATION if check.name == name)
 
     def only(self, name: str) -> Finding:
         """The check's only finding."""

@@ -5,8 +5,10 @@ What takes more than one look stands in tests of its own.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from rotator.config.load import parse
 from tests.doctor.conftest import STATION, STATION_OF, Pi, hold, runs
 
 CONFIG_TXT = "/boot/firmware/config.txt"
@@ -21,7 +23,20 @@ STATE = "/sys/class/watchdog/watchdog0/state"
 MOTEUS_PANEL = '[compass]\nkind = "bno055"\n'
 MCP3208 = '[adc]\nkind = "mcp3208"\n'
 SWITCHES = "[panel]\nmode_msb = 10\nmode_lsb = 9\nstop = 19\n[limits]\nazimuth_low = 18\n"
+BACKPACK = '[lcd]\nkind = "pcf8574"\n'
+PANEL = """
+[panel]
+mode_msb = 10
+mode_lsb = 9
+calibrate = 11
+stop = 19
+[limits]
+azimuth_low = 18
+azimuth_high = 8
+"""
 AS5600 = STATION.replace("[elevation]", '[azimuth.sensor]\nkind = "as5600"\n[elevation]')
+LS7366R = '[bridge.azimuth]\ncounter = "ls7366r"\n'
+AS5045 = AS5600.replace('"as5600"', '"as5045"')
 NO_RUN = "not installed: rotator run is started by hand"
 
 
@@ -56,6 +71,9 @@ class Row:
     is_running: bool = False
     now: dict[str, object] = field(default_factory=dict)
     """Other fields of the machine."""
+    reads: str | None = None
+    """What the file says instead of `more`, to which the chips are wired."""
+    spoil: Callable[[Pi], object] = lambda _pi: None
 
     def look(self, pi: Pi) -> str:
         pi.station(self.more, base=self.base)
@@ -69,12 +87,48 @@ class Row:
             hold(pi, *self.held)
         if self.is_running:
             runs(pi)
+        if self.reads is not None:
+            pi.config = parse(f"{self.base}\n{self.reads}", "test")
+        self.spoil(pi)
         pi.change(**self.now)
         return "".join(f"\n{each.mark} {each.found} → {each.advice}" for each in pi.found(self.check))
 
     def judge(self, pi: Pi) -> None:
         told = self.look(pi)
-        assert self.found in told
+        assert self.found in told, told
+
+
+class Listener:
+    """A chip that keeps what is written to it, and has nothing to say."""
+
+    def __init__(self) -> None:
+        self.written: list[bytes] = []
+
+    def write(self, data: bytes) -> None:
+        self.written.append(data)
+
+    def read(self, count: int) -> bytes:
+        return bytes(count)
+
+
+def another_chip(address: int, chip: Listener | None = None) -> Callable[[Pi], None]:
+    """In place of the one at this address."""
+
+    def put(pi: Pi) -> None:
+        pi.world.bus.detach(address)
+        pi.world.bus.attach(address, chip or Listener())
+
+    return put
+
+
+def board(*registers: tuple[int, int]) -> Callable[[Pi], None]:
+    """A program has written to the servo board."""
+
+    def write(pi: Pi) -> None:
+        for register in registers:
+            pi.world.board.write(bytes(register))
+
+    return write
 
 
 def stat(policies: str) -> dict[str, str | None]:

@@ -13,7 +13,7 @@ from tests.doctor.conftest import Pi, hold
 
 
 def counts_file(pi: Pi) -> CountsFile:
-    cams = pi.config.pulses.cams(Axis)
+    cams = pi.config.kind.cams(Axis)
     return CountsFile(pi.machine.at("/var/lib/rotator/counts.json"), cams)
 
 
@@ -38,6 +38,15 @@ def test_a_count_on_another_cam_is_lost(pi: Pi) -> None:
     assert "or its contact or pulses.azimuth has changed" in pi.found("counts")[0].found
 
 
+def test_by_time_alone_an_axis_that_does_not_know_its_place_goes_to_its_stop_by_itself(pi: Pi) -> None:
+    pi.kind("relay-timed")
+    finding = pi.found("counts")[0]
+    assert finding.mark == "!"
+    assert finding.found == "azimuth: its place is not known: it goes to its end stop before the first target"
+    counts_file(pi).home(Axis.AZIMUTH, 123.0)
+    assert pi.found("counts")[0].found == "azimuth: 123.0° on the rotor's scale, when the box ended"
+
+
 def test_a_running_box_may_be_moving(pi: Pi) -> None:
     pi.kind("relay-pulse")
     file = counts_file(pi)
@@ -46,3 +55,16 @@ def test_a_running_box_may_be_moving(pi: Pi) -> None:
     hold(pi, "rotator-azimuth", 16)
     azimuth, elevation = pi.found("counts")
     assert (azimuth.mark, elevation.ok) == ("–", False)
+
+
+def test_a_slew_drive_is_told_where_it_stands_or_finds_its_switch(pi: Pi) -> None:
+    pi.kind("h-bridge")
+    assert pi.found("counts")[0].advice.startswith("rotator confirm azimuth DEGREES")
+    home = '[bridge.azimuth]\nhome = "index"\nindex = 10\n'
+    pi.kind("h-bridge", home)
+    azimuth, elevation = pi.found("counts")
+    assert azimuth.advice.startswith("rotator home azimuth")
+    assert elevation.advice.startswith("rotator confirm elevation DEGREES")
+    counts_file(pi).home(Axis.AZIMUTH, 123.0)
+    pi.kind("h-bridge", f"{home}home_deg = -1\n")
+    assert "or its encoder or bridge.azimuth has changed" in pi.found("counts")[0].found

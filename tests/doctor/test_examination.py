@@ -32,29 +32,22 @@ def file(tmp_path: Path) -> Path:
     return file
 
 
-def test_a_healthy_pi_is_well(pi: Pi, file: Path) -> None:
+@pytest.mark.parametrize(
+    ("program", "persist", "code", "said"),
+    [
+        ("echo yes", "N", 0, "✓ No problem found, – 5 skipped."),
+        ("echo no", "N", 0, "! 1 warning, – 5 skipped."),
+        ("echo yes", "Y", 1, "✗ 1 to repair, – 5 skipped."),
+    ],
+)
+def test_every_check_is_told_in_order_and_a_fault_makes_it_1(
+    pi: Pi, file: Path, program: str, persist: str, *, code: int, said: str
+) -> None:
+    pi.program("timedatectl", program)
+    pi.write("/sys/module/pinctrl_bcm2835/parameters/persist_gpio_outputs", f"{persist}\n")
     examination = examine(pi.machine, file)
-    assert examination.exit_code == 0
-    assert set(marks(examination).values()) <= {"✓", "–"}
-    assert verdict(examination.findings) == "✓ No problem found, – 5 skipped."
-
-
-def test_every_check_is_told_in_order(pi: Pi, file: Path) -> None:
-    assert list(marks(examine(pi.machine, file))) == names(pi.config)
-
-
-def test_one_fault_makes_it_1(pi: Pi, file: Path) -> None:
-    pi.write("/sys/module/pinctrl_bcm2835/parameters/persist_gpio_outputs", "Y\n")
-    examination = examine(pi.machine, file)
-    assert examination.exit_code == 1
-    assert verdict(examination.findings) == "✗ 1 to repair, – 5 skipped."
-
-
-def test_a_warning_leaves_it_0(pi: Pi, file: Path) -> None:
-    pi.program("timedatectl", "echo no")
-    examination = examine(pi.machine, file)
-    assert examination.exit_code == 0
-    assert verdict(examination.findings) == "! 1 warning, – 5 skipped."
+    assert list(marks(examination)) == names(pi.config)
+    assert (examination.exit_code, verdict(examination.findings)) == (code, said)
 
 
 def test_without_a_usable_configuration_the_machine_is_still_looked_at(pi: Pi, file: Path) -> None:
@@ -95,6 +88,13 @@ def test_a_simulated_rotor_has_chips_too(pi: Pi) -> None:
     assert len(chips) == 5
     assert all(said[name].found.startswith("simulated: ") for name in chips)
     assert said["boot pins"].found == "the rotor is simulated"
+
+
+def test_an_axis_that_is_not_fitted_has_no_pot_to_look_at(pi: Pi, file: Path) -> None:
+    file.write_text("[elevation]\nfitted = false\n")
+    pots = [finding.found for name, finding in examine(pi.machine, file).findings if name == "pots"]
+    assert len(pots) == 1
+    assert pots[0].startswith("simulated: azimuth: 0.05")
 
 
 @pytest.mark.parametrize("kind", ["relay-pulse", "moteus", "servo", "digipot"])

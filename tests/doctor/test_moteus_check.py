@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import pytest
 
@@ -13,117 +14,86 @@ from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 from hw.ports import Axis, HardwareError
 from rotator.assembly.chips import Heard, ask_controllers
 from rotator.config.load import parse
-from tests.doctor.conftest import Pi, runs
+from tests.doctor.conftest import Pi
+from tests.doctor.rows import Row, named, of
+
+pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
+
+GEARLESS = "[moteus.azimuth]\ngeared = false\n[moteus.elevation]\ngeared = false\n"
+BY_ID = "/dev/serial/by-id/usb-mjbots_fdcanusb_1234-if00"
+CAN0 = "/sys/class/net/can0/"
 
 
-@pytest.fixture
-def moteus(pi: Pi) -> Pi:
-    pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
-    pi.kind("moteus", "[moteus.azimuth]\ngeared = false\n[moteus.elevation]\ngeared = false\n")
-    pi.write("/dev/fdcanusb")
-    return pi
+def row(
+    found: str, more: str = GEARLESS, files: dict[str, str | None] | None = None, broken: str = "", **others: Any
+) -> Row:
+    return Row("moteus", found, of("moteus"), more, files or {"/dev/fdcanusb": ""}, broken=broken, **others)
 
 
-def test_two_controllers(moteus: Pi) -> None:
-    port, azimuth, elevation, by_hand = moteus.found("moteus")
-    assert port.found == "/dev/fdcanusb is there and may be opened"
-    assert azimuth.found.startswith("azimuth: moteus 1, 24.0 V, ")
-    assert azimuth.found.endswith("°C, at 90.0°")
-    assert elevation.found.startswith("elevation: moteus 2, ")
-    assert by_hand.mark == "–"
-    assert "servo.timeout_mode" in by_hand.found
-    assert "tview" in by_hand.advice
+def can(found: str, **files: str) -> Row:
+    return row(found, '[moteus]\ncan = "can0"\n', {f"{CAN0}{name}": f"{text}\n" for name, text in files.items()})
 
 
-def test_they_are_asked_and_told_nothing(moteus: Pi) -> None:
-    moteus.found("moteus")
-    motor = moteus.world.controller("azimuth").motor
-    assert (motor.mode.name, moteus.world.antenna()) == ("STOPPED", (90.0, 45.0))
+def asked(answer: Callable[[object], Any]) -> Callable[[Pi], None]:
+    """What the controllers answer, or the library."""
+    return lambda pi: pi.change(chips=replace(pi.machine.chips, moteus=answer))
 
 
-@pytest.mark.parametrize(
-    ("fault", "at", "mark", "found", "advice"),
-    [
-        ("azimuth-over-voltage", 1, "✗", "stopped by itself: supply voltage too high (34)", "Braking feeds the supply"),
-        ("elevation-silent", 2, "✗", "elevation: moteus 2 does not answer", "is its id.id 2?"),
-        ("azimuth-power-cycled", 1, "!", "does not know which way", "rotator confirm azimuth DEGREES."),
-    ],
-)
-def test_a_controller_that_needs_a_person(
-    moteus: Pi, fault: str, at: int, *, mark: str, found: str, advice: str
-) -> None:
-    if fault == "azimuth-power-cycled":
-        moteus.kind("moteus")  # behind a gear
-    moteus.world.inject(fault)
-    told = moteus.found("moteus")[at]
-    assert told.mark == mark
-    assert found in told.found
-    assert advice in told.advice
-    runs(moteus)
-    assert moteus.only("moteus").mark == "–"
+def missing(_config: object) -> NoReturn:
+    raise HardwareError("moteus: its Python package cannot be loaded (No module named 'moteus')")
 
 
-def test_too_few_volts(moteus: Pi) -> None:
-    heard = dict.fromkeys(Axis, Heard(volts=8.5, angle_deg=0.0))
-    moteus.change(chips=replace(moteus.machine.chips, moteus=lambda _config: heard))
-    assert moteus.found("moteus")[1].ok is False
-
-
-def test_an_adapter_that_is_not_there(moteus: Pi) -> None:
-    moteus.remove("/dev/fdcanusb")
-    moteus.write("/dev/serial/by-id/usb-mjbots_fdcanusb_1234-if00")
-    finding = moteus.only("moteus")
-    assert (finding.ok, finding.found) == (False, "/dev/fdcanusb is not there")
-    assert finding.advice.endswith("Known by name: /dev/serial/by-id/usb-mjbots_fdcanusb_1234-if00.")
-
-
-@pytest.mark.parametrize(
-    ("command", "mark", "words"),
-    [
-        ("/usr/bin/python3\0/usr/bin/tview", "✗", "held by"),
-        ("/usr/local/bin/rotator\0calibrate", "–", "the box has it"),
-    ],
-)
-def test_an_adapter_that_somebody_has(moteus: Pi, command: str, mark: str, words: str) -> None:
-    moteus.write("/proc/77/cmdline", f"{command}\0")
-    descriptors = moteus.machine.at("/proc/77/fd")
+def held(pi: Pi) -> None:
+    descriptors = pi.machine.at("/proc/77/fd")
     descriptors.mkdir()
-    (descriptors / "5").symlink_to(moteus.machine.at("/dev/fdcanusb"))
-    finding = moteus.only("moteus")
-    assert finding.mark == mark
-    assert words in finding.found
+    (descriptors / "5").symlink_to(pi.machine.at("/dev/fdcanusb"))
 
 
-def test_without_the_library(moteus: Pi) -> None:
-    def missing(_config: object) -> NoReturn:
-        raise HardwareError("moteus: its Python package cannot be loaded (No module named 'moteus')")
-
-    moteus.change(chips=replace(moteus.machine.chips, moteus=missing))
-    finding = moteus.found("moteus")[1]
-    assert finding.ok is False
-    assert "pip install --no-deps 'moteus>=1.1,<2'" in finding.advice
+def asked_and_not_told(pi: Pi) -> None:
+    pi.found("moteus")
+    assert (pi.world.controller("azimuth").motor.mode.name, pi.world.antenna()) == ("STOPPED", (90.0, 45.0))
 
 
 @pytest.mark.parametrize(
-    ("files", "words"),
+    "row",
     [
-        ({}, "there is no such CAN interface"),
-        ({"flags": "0x40080", "mtu": "72"}, "is down"),
-        ({"flags": "0x40081", "mtu": "16"}, "without CAN FD"),
-        ({"flags": "0x40081", "mtu": "72"}, "can0 is up, with CAN FD"),
+        row("✓ /dev/fdcanusb is there and may be opened → \n✓ azimuth: moteus 1, 24.0 V, ", spoil=asked_and_not_told),
+        row("°C, at 90.0° → \n✓ elevation: moteus 2, "),
+        row("– servo.timeout_mode, servopos.position_min and position_max cannot be asked for from here → Look once"),
+        row("stopped by itself: supply voltage too high (34) → Braking feeds", broken="azimuth-over-voltage"),
+        row("✗ elevation: moteus 2 does not answer", broken="elevation-silent"),
+        row("is its id.id 2? As sold all are 1.", broken="elevation-silent"),
+        row("rotator confirm azimuth DEGREES.", "", broken="azimuth-power-cycled"),
+        row("– the box is running", is_running=True),
+        row(
+            "✗ azimuth: moteus 1, 8.5 V, 0 °C, which is too little",
+            spoil=asked(lambda _config: dict.fromkeys(Axis, Heard(volts=8.5, angle_deg=0.0))),
+        ),
+        row("pip install --no-deps 'moteus>=1.1,<2'", spoil=asked(missing)),
+        row(f"Known by name: {BY_ID}.", files={BY_ID: ""}),
+        row("✗ /dev/fdcanusb is not there", files={BY_ID: ""}),
+        row(
+            "✗ /dev/fdcanusb is held by",
+            files={"/dev/fdcanusb": "", "/proc/77/cmdline": "/usr/bin/python3\0/usr/bin/tview\0"},
+            spoil=held,
+        ),
+        row(
+            "– /dev/fdcanusb: the box has it",
+            files={"/dev/fdcanusb": "", "/proc/77/cmdline": "/usr/local/bin/rotator\0calibrate\0"},
+            spoil=held,
+        ),
+        can("✗ can0: there is no such CAN interface"),
+        can("✗ can0 is down", flags="0x40080", mtu="72"),
+        can("✗ can0 is up without CAN FD", flags="0x40081", mtu="16"),
+        can("✓ can0 is up, with CAN FD", flags="0x40081", mtu="72"),
     ],
+    ids=named,
 )
-def test_a_can_interface_of_the_kernel(moteus: Pi, files: dict[str, str], words: str) -> None:
-    moteus.kind("moteus", '[moteus]\ncan = "can0"\n')
-    for name, text in files.items():
-        moteus.write(f"/sys/class/net/can0/{name}", f"{text}\n")
-    finding = moteus.found("moteus")[0]
-    assert words in finding.found
-    assert (finding.mark == "✓") is (files.get("mtu") == "72" and "81" in files["flags"])
+def test_what_is_found(pi: Pi, row: Row) -> None:
+    row.judge(pi)
 
 
 def test_over_an_adapter_in_real_time(tmp_path: Path) -> None:
-    pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
     world = SimMoteusRotor(MoteusAxisSpec(1, start_deg=130.0), MoteusAxisSpec(2), time.monotonic)
     adapter = world.adapter(tmp_path / "fdcanusb")
     config = parse(

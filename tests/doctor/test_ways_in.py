@@ -9,8 +9,6 @@ import pytest
 
 from tests.doctor.conftest import Pi
 
-GS0 = '[[link]]\nprotocol = "gs232b"\nserial = "/dev/ttyGS0"\n'
-
 
 def tcp(where: str) -> str:
     return f'[[link]]\nprotocol = "rotctld"\ntcp = "{where}"\n'
@@ -21,32 +19,6 @@ def taken() -> Iterator[int]:
     """A port on which somebody listens."""
     with socket.create_server(("127.0.0.1", 0)) as server:
         yield server.getsockname()[1]
-
-
-# --- serial ports
-
-
-def test_a_port_with_the_kernels_console_on_it(pi: Pi) -> None:
-    pi.station(GS0.replace("ttyGS0", "serial0"))
-    pi.write("/dev/ttyS0")
-    pi.machine.at("/dev/serial0").symlink_to("ttyS0")
-    assert pi.only("serial ports").mark == "✓"
-    pi.write("/proc/cmdline", "console=ttyS0,115200 console=tty1")
-    finding = pi.only("serial ports")
-    assert finding.ok is False
-    assert "raspi-config" in finding.advice
-
-
-# --- pseudo-terminals
-
-
-def test_a_pseudo_terminal(pi: Pi) -> None:
-    pi.station('[[link]]\nprotocol = "gs232b"\npty = "/run/rotator/gs232"\n')
-    assert "will be made" in pi.only("pseudo-terminals").found
-    pi.write("/dev/pts/3")
-    pi.machine.at("/run/rotator").mkdir(parents=True)
-    pi.machine.at("/run/rotator/gs232").symlink_to(pi.machine.at("/dev/pts/3"))
-    assert pi.only("pseudo-terminals").mark == "✓"
 
 
 # --- TCP ports

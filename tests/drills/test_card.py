@@ -57,6 +57,7 @@ def test_a_card_that_hangs(rotor: Rotor, begins_s: float, lasts_s: float, end: s
     assert len(play(drill).said) == len(first.said)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rotor", ROTORS, ids=lambda rotor: rotor.kind)
 def test_a_card_that_hangs_and_then_refuses(rotor: Rotor) -> None:
     states = ((0.5, HANGS), (4.0, REFUSES), (7.5, HANGS), (14.5, WORKS))
@@ -64,6 +65,7 @@ def test_a_card_that_hangs_and_then_refuses(rotor: Rotor) -> None:
     assert play(drilled(rotor, *events, *ENDS["is killed"])).violations == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("end", ENDS)
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("rotor", ROTORS[:2], ids=lambda rotor: rotor.kind)

@@ -34,7 +34,6 @@ class Mast:
             (0.0, 0.0),
             lacking=lacking,
             parks_idle=idle,
-            over_top=lambda: self.elevation.shaft_deg > 90.0,
         )
         self.case = AxisCase(0.0, 360.0, 4.0)
         self.judges = Judges((self.case, AxisCase(0.0, 180.0, 4.0)), self.orders, master=master)

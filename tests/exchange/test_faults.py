@@ -46,27 +46,3 @@ def test_its_text_for_the_display_fits_beside_the_axis(kind: FaultKind) -> None:
 
 def test_no_two_have_the_same_texts() -> None:
     assert len({kind.text for kind in FaultKind}) == len({kind.lcd for kind in FaultKind}) == len(FaultKind)
-
-
-@EACH
-@pytest.mark.parametrize("sensor", ["encoder", "contact", "tilt sensor"])
-def test_where_no_pot_is_read_no_word_is_of_a_pot(kind: FaultKind, sensor: str) -> None:
-    fault = Fault(kind, Axis.AZIMUTH, "measured", sensor=sensor)
-    said = str(fault).removesuffix(f"(rotator help {kind.anchor})")
-    assert "pot" not in said.replace("potent", "")
-    assert "SENSOR " not in said
-    assert "POT" not in fault.lcd
-    assert 0 < len(fault.lcd) <= len("STANDS STILL ")
-    assert fault.name == kind.text, "its name on the pages and for programs stays"
-
-
-def test_where_a_pot_is_read_it_is_named() -> None:
-    fault = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "measured")
-    assert str(fault).startswith("azimuth: pot jumps: measured. Look for a loose wire, a worn pot,")
-    assert fault.lcd == "POT JUMPS"
-
-
-def test_an_encoder_that_jumps_is_called_one() -> None:
-    fault = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "measured", sensor="encoder")
-    assert str(fault).startswith("azimuth: encoder jumps: measured. Look for a loose wire or magnet,")
-    assert fault.lcd == "ANGLE JUMPS"

@@ -14,6 +14,7 @@ import pytest
 from rotator.backup.content import ABOUT, CONFIGURATION, BackupError, check
 from rotator.config.load import ConfigError, parse
 from rotator.exchange.foreign import DEEPEST, LONGEST_TOML, TooMuchError, json_of, toml_of, xml_of
+from tests.tables import every_row
 
 ROOT = Path(__file__).parents[2]
 DOTTED = ".".join(["a"] * 20_000)
@@ -33,7 +34,7 @@ TOML = {
 }
 
 
-@pytest.mark.parametrize("what", TOML)
+@every_row("what", TOML)
 def test_no_toml_takes_the_box(what: str) -> None:
     tracemalloc.start()
     try:
@@ -67,7 +68,7 @@ def test_what_people_write_is_read() -> None:
     assert json_of(json.dumps({"name": "[" * 99 + '\\"' * 99})) == {"name": "[" * 99 + '\\"' * 99}
 
 
-@pytest.mark.parametrize("text", ["[" * 500, '{"a":' * 500, '["' + '\\"' * 9 + '",' + "[" * 500, "1" * 5000, b"\xff[]"])
+@every_row("text", ["[" * 500, '{"a":' * 500, '["' + '\\"' * 9 + '",' + "[" * 500, "1" * 5000, b"\xff[]"])
 def test_no_json_ends_its_reader(text: str | bytes) -> None:
     """Python's own reader takes five hundred brackets, and who shows the value of it then fails."""
     with pytest.raises(ValueError):  # noqa: PT011 - of any kind
@@ -77,7 +78,7 @@ def test_no_json_ends_its_reader(text: str | bytes) -> None:
 LAUGHS = "".join(f'<!ENTITY l{n} "{f"&l{n - 1};" * 10}">' for n in range(1, 10))
 
 
-@pytest.mark.parametrize(
+@every_row(
     "text",
     [
         f'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY l0 "ha">{LAUGHS}]><a>&l9;</a>',

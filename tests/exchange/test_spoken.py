@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
-
 from rotator.exchange.sources import MQTT, PERSONS, TRACKER, Source
 from rotator.exchange.spoken import sender, short_sender, spoken
+from tests.tables import every_row
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "read"),
     [
         (f"stopped by {Source('console', 12)}: nothing moves", "stopped by a rotator command: nothing moves"),
@@ -47,8 +46,8 @@ SAID = {
 }
 
 
-@pytest.mark.parametrize("name", SAID)
-@pytest.mark.parametrize("rest", ["", " before the restart", ", in a storm park"])
+@every_row("name", SAID)
+@every_row("rest", ["", " before the restart", ", in a storm park"])
 def test_each_sender_has_one_word(name: str, rest: str) -> None:
     said, short = SAID[name]
     assert sender(name + rest) == said + rest
@@ -61,7 +60,7 @@ def test_every_kind_of_person_has_a_word() -> None:
     assert {name.partition("#")[0] for name in SAID} >= {*PERSONS, MQTT, TRACKER}
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("host", "said"),
     [
         ("10.99.14.2", "rotctld, from 10.99.14.2"),

@@ -17,6 +17,7 @@ from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
 from tests.protocols.fed import Notebook
+from tests.tables import every_row
 
 
 def standing(azimuth_deg: float, elevation_deg: float, noise_deg: float = 0.1) -> Notebook:
@@ -45,7 +46,7 @@ def told(name: str, box: Box) -> list[float]:
     return [float(number) for number in re.findall(r"-?\d+\.\d+", answer)]
 
 
-@pytest.mark.parametrize("name", SESSIONS)
+@every_row("name", SESSIONS)
 def test_noise_on_the_horizon_has_no_sign(name: str) -> None:
     scatter = random.Random(1)
     for _ in range(2000):
@@ -54,13 +55,13 @@ def test_noise_on_the_horizon_has_no_sign(name: str) -> None:
             assert 0.0 <= angle_deg < 1.0, "neither below the end nor a turn away from it"
 
 
-@pytest.mark.parametrize("name", ["rotctld", "easycomm", "easycomm for PstRotator", "pstrotator", "console"])
-@pytest.mark.parametrize(("noise_deg", "angle_deg"), [(0.1, -0.6), (0.02, -0.2), (0.1, -3.0), (0.0, -0.1)])
+@every_row("name", ["rotctld", "easycomm", "easycomm for PstRotator", "pstrotator", "console"])
+@every_row(("noise_deg", "angle_deg"), [(0.1, -0.6), (0.02, -0.2), (0.1, -3.0), (0.0, -0.1)])
 def test_an_antenna_below_its_end_is_told_below(name: str, noise_deg: float, angle_deg: float) -> None:
     assert told(name, standing(90.0, angle_deg, noise_deg))[1] == pytest.approx(angle_deg, abs=0.051)
 
 
-@pytest.mark.parametrize(("noise_deg", "angle_deg", "shown_deg"), [
+@every_row(("noise_deg", "angle_deg", "shown_deg"), [
     (0.1, 450.3, 450.0), (0.1, 450.6, 450.6), (0.1, -0.4, 0.0), (0.1, 12.34, 12.34), (0.1, 449.7, 449.7),
     (1.5, -0.9, 0.0), (1.5, -1.1, -1.1), (0.0, -1e-9, -1e-9), (0.0, 0.0, 0.0),
 ])  # fmt: skip

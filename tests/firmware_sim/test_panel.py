@@ -22,7 +22,7 @@ class Bench:
         self.clock = SimClock(100.0)
         self.gpio = SimGpio(self.clock)
         self.bus = SimI2CBus()
-        self.panel = SimPanel(spec, self.gpio, self.bus, self.clock)
+        self.panel = SimPanel(spec, self.gpio, lambda _number: self.bus, self.clock)
 
     def bits(self) -> tuple[bool, bool]:
         """Closed contacts of the mode switch."""

@@ -8,6 +8,7 @@ import re
 import subprocess
 import time
 from collections.abc import Callable, Iterator
+from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -107,8 +108,9 @@ def rest(rotctl: Callable[..., str], model: int, where: Path | str) -> tuple[flo
     pytest.fail("the antenna does not come to rest")
 
 
-@pytest.mark.parametrize("model", [601, 602, 603, 202, 204, 901, 903, 1001, 1703])
-@pytest.mark.parametrize("over", ["pty", "tcp"])
+@pytest.mark.parametrize(
+    ("model", "over"), list(zip((601, 602, 603, 202, 204, 901, 903, 1001, 1703), cycle(("pty", "tcp")), strict=False))
+)
 def test_set_read_and_stop(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
     box = start_box(DIALECTS[model])
     where = place(box, over)
@@ -137,6 +139,20 @@ def test_azimuth_only(start_box: Start, rotctl: Callable[..., str], model: int, 
     rotctl(model, where, "P", "350", "0")
     rotctl(model, where, "S")
     assert rest(rotctl, model, where)[0] < 340
+
+
+@pytest.mark.parametrize(("model", "over"), [(601, "pty"), (603, "tcp"), (202, "tcp"), (901, "pty"), (405, "pty")])
+def test_a_rotor_with_azimuth_alone(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
+    """By the models for two axes too: the elevation that they send is ignored, and told as 0."""
+    alone = FAST_ROTOR.replace("[elevation]\n", "[elevation]\nfitted = false\n")
+    box = start_box(DIALECTS[model], alone)
+    where = place(box, over)
+    rotctl(model, where, "P", "75", "0" if model == 405 else "25")
+    arrive(rotctl, model, where, (75, 0))
+    rotctld = f"127.0.0.1:{box.rotctld_port}"
+    rotctl(2, rotctld, "P", "120", "0")
+    arrive(rotctl, 2, rotctld, (120, 0))
+    assert box.stop() == 0
 
 
 @pytest.mark.parametrize(("model", "elevation_deg"), [(201, 25), (403, 0)])

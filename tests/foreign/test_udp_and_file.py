@@ -13,7 +13,7 @@ import pytest
 
 from rotator.protocols import wsjtx
 from rotator.protocols.wsjtx import BodyDirection
-from tests.boxes import free_udp_ports
+from tests.boxes import FAST_ROTOR, free_udp_ports
 
 if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 Start = Callable[..., "RunningBox"]
 PATIENCE_S = 60.0
 TOLERANCE_DEG = 4.5
+ALONE = FAST_ROTOR.replace("[elevation]\n", "[elevation]\nfitted = false\n")
+"""A rotor with azimuth alone."""
 
 
 class Rotctld:
@@ -111,10 +113,11 @@ def test_pstrotator(start_box: Start, udp_port: int, mouth: socket.socket) -> No
     assert box.stop() == 0
 
 
-def test_n1mm(start_box: Start, udp_port: int, mouth: socket.socket) -> None:
+@pytest.mark.parametrize("rotor", [FAST_ROTOR, ALONE], ids=["two axes", "azimuth alone"])
+def test_n1mm(start_box: Start, udp_port: int, mouth: socket.socket, rotor: str) -> None:
     keys = f'rotor_name = "G-5500"\nstatus_to = "127.0.0.1:{udp_port + 1}"\n'
     with hearing(udp_port + 1) as ears:
-        box = start_box(links=udp("n1mm", udp_port, keys))
+        box = start_box(extra=rotor, links=udp("n1mm", udp_port, keys))
 
         def send(message: bytes) -> None:
             mouth.sendto(b"<N1MMRotor>" + message + b"</N1MMRotor>", ("127.0.0.1", udp_port))
@@ -156,10 +159,11 @@ def test_macdoppler_until_a_stop_elsewhere(start_box: Start, udp_port: int, mout
     assert box.stop() == 0
 
 
-def test_wsjtx(start_box: Start, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("rotor", "raised_deg"), [(FAST_ROTOR, 45), (ALONE, 0)], ids=["two axes", "azimuth alone"])
+def test_wsjtx(start_box: Start, tmp_path: Path, rotor: str, raised_deg: float) -> None:
     path = tmp_path / "azel.dat"
     path.write_bytes(wsjtx.encode("Moon", BodyDirection(0, 200.0, 50.0)))
-    box = start_box(links=f'[[link]]\nprotocol = "wsjtx"\nfile = "{path}"\n')
+    box = start_box(extra=rotor, links=f'[[link]]\nprotocol = "wsjtx"\nfile = "{path}"\n')
     seconds = iter(range(3600, 36_000))
 
     def write() -> None:
@@ -173,5 +177,5 @@ def test_wsjtx(start_box: Start, tmp_path: Path) -> None:
 
     with closing(Rotctld(box.rotctld_port)) as rotctld:
         assert rotctld.position() == pytest.approx((0, 0), abs=1)
-        rotctld.until(90, 45, meanwhile=write)
+        rotctld.until(90, raised_deg, meanwhile=write)
     assert box.stop() == 0

@@ -27,6 +27,7 @@ from rotator.store.priorities import Priorities
 from rotator.store.relays import RELAYS, KeptRelays
 from rotator.store.state import EARLIER, State
 from rotator.store.tries import KeptTries
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 FIRST = Path(__file__).parent / "1"
@@ -45,7 +46,7 @@ def config_of(name: str, folder: Path) -> Config:
     return load(folder / "rotator.toml")
 
 
-@pytest.mark.parametrize("path", CONFIGURATIONS, ids=lambda path: path.stem)
+@every_row("path", CONFIGURATIONS)
 def test_a_configuration_of_then_is_taken(path: Path) -> None:
     assert load(path).link
 
@@ -74,7 +75,7 @@ def test_a_calibration_is_saved_into_it_and_the_rest_stays(tmp_path: Path) -> No
 
 def test_a_count_is_believed(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     path = Path(shutil.copy(FIRST / "u100-counts.json", tmp_path))
-    file = CountsFile(path, config_of("u100", tmp_path).pulses.cams((AZ, EL)))
+    file = CountsFile(path, config_of("u100", tmp_path).kind.cams((AZ, EL)))
     assert file.load() == {AZ: Place(Standing.KNOWN, 123.456), EL: Place(Standing.LOST)}
     assert not caplog.records
 

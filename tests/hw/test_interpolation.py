@@ -7,6 +7,7 @@ import math
 import pytest
 
 from hw.interpolation import PiecewiseLinear
+from tests.tables import every_row
 
 RISING = PiecewiseLinear(((0.0, 520.0), (90.0, 1470.0), (180.0, 2480.0)))
 FALLING = PiecewiseLinear(((0.0, 0.95), (200.0, 0.5), (450.0, 0.05)))
@@ -33,7 +34,7 @@ def test_clamped_nothing_is_beyond_an_end(table: PiecewiseLinear) -> None:
     assert ends_x == pytest.approx([low_x, high_x] if low_y < high_y else [high_x, low_x])
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("points", "why"),
     [
         ((), "two points or more"),

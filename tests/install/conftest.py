@@ -17,7 +17,7 @@ import pytest
 from release import archives, deb, environment
 from release.source import Source, run
 from tests.install.roots import Layer, Root, can_run_arm64, debian
-from tests.install.visit import DebVisit, Visit, visit, visit_deb
+from tests.install.visit import Visit, visit, visit_deb
 from tests.kept import kept
 
 PROJECT = Path(__file__).parent.parent.parent
@@ -27,6 +27,7 @@ WHAT_IT_TAKES = (
     *("rotator", "hw", "firmware_sim", "docs"),
 )
 RELEASES = ("trixie", "bookworm")
+"""The package is tried on both, install.sh on the first."""
 PACKAGES_AT = f"{deb.HOME.lstrip('/')}/{environment.PACKAGES}"
 
 
@@ -66,13 +67,10 @@ def amd64(able: None) -> Path:
     return debian("bookworm", "amd64", ROOTS)
 
 
-Visits = tuple[Visit, DebVisit]
-
-
 @pytest.fixture(scope="session")
 def arm64_visits(
     request: pytest.FixtureRequest, able: None, tree: Path, wheel: Path, layers: Callable[[], Layer]
-) -> Iterator[dict[str, Future[Visits]]]:
+) -> Iterator[dict[str, Future[list[Visit]]]]:
     """By release; under way from the first test on."""
     arch = "arm64"
     if not can_run_arm64():
@@ -83,14 +81,21 @@ def arm64_visits(
 
     built, _ = deb.build(Source.at(tree), wheel, wheel.parent, arch)
 
-    def go(release: str, layer: Layer) -> Visits:
+    def bring(release: str, layer: Layer) -> Visit:
+        with Root([debian(release, arch, ROOTS)], layer) as root:
+            shutil.copy(built, root.at("/root"))
+            return visit_deb(root, f"/root/{built.name}")
+
+    def install(release: str, layer: Layer) -> Visit:
         with Root([debian(release, arch, ROOTS)], layer) as root:
             root.receive(tree, "/src")
-            shutil.copy(built, root.at("/src"))
-            return visit(root), visit_deb(root, f"/src/{built.name}")
+            return visit(root)
+
+    def go(release: str, one: Layer, other: Layer) -> list[Visit]:
+        return [bring(release, one)] + ([install(release, other)] if release == RELEASES[0] else [])
 
     with ThreadPoolExecutor(len(RELEASES)) as pool:
-        yield {release: pool.submit(go, release, layers()) for release in RELEASES}
+        yield {release: pool.submit(go, release, layers(), layers()) for release in RELEASES}
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -71,7 +71,7 @@ def test_a_disk_that_fills_up_on_the_way(bare: Root) -> None:
 
 def test_a_profile_there_is_not(bare: Root) -> None:
     said = refused(bare, "/src/install.sh", "--profile", "g5501")
-    assert said.startswith("there is no profile g5501; there are: simulated f1efw g5500 ")
+    assert said.startswith("there is no profile g5501; there are: simulated controller f1efw g1000 g450 g5500 ham4 ")
 
 
 def test_wheels_that_are_not_there(bare: Root) -> None:

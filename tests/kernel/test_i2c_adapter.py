@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import errno
 import time
 from collections.abc import Iterator
 
 import pytest
-from smbus2 import SMBus
 
 from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.chips.ads1115 import Ads1115
@@ -31,30 +29,6 @@ def wire() -> SimI2CBus:
 def adapter(wire: SimI2CBus) -> Iterator[I2CAdapter]:
     with I2CAdapter(wire) as adapter:
         yield adapter
-
-
-def test_every_way_of_smbus2_reaches_the_chip(adapter: I2CAdapter) -> None:
-    assert adapter.number is not None
-    with SMBus(adapter.number) as bus:
-        assert bus.read_i2c_block_data(ADDRESS, 1, 2) == CONFIG_RESET
-        bus.write_i2c_block_data(ADDRESS, 2, [0x12, 0x34])
-        assert bus.read_word_data(ADDRESS, 2) == 0x3412
-        assert bus.read_byte(ADDRESS) == 0x12
-
-
-def test_a_second_program_reads_the_same_chip(adapter: I2CAdapter) -> None:
-    assert adapter.number is not None
-    with SMBus(adapter.number) as one, SMBus(adapter.number) as other:
-        for value in range(20):
-            one.write_i2c_block_data(ADDRESS, 3, [value, 0])
-            assert other.read_i2c_block_data(ADDRESS, 3, 2) == [value, 0]
-
-
-def test_without_an_acknowledge_the_number_is_enxio(adapter: I2CAdapter) -> None:
-    assert adapter.number is not None
-    with SMBus(adapter.number) as bus, pytest.raises(OSError, match="No such device or address") as fault:
-        bus.read_byte(NOBODY)
-    assert fault.value.errno == errno.ENXIO
 
 
 def test_a_bus_that_hangs_in_mid_transfer_costs_the_adapters_timeout_each_time(

@@ -6,16 +6,15 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
-import pytest
-
 from rotator.links.allowed import Allowed
 from rotator.links.tcp import TcpLink
 from rotator.links.wire import Wire
+from tests.tables import every_row
 
 PATIENCE_S = 30.0
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("networks", "host", "may"),
     [
         (None, "203.0.113.9", True),

@@ -135,6 +135,7 @@ async def test_back_again_it_points_somewhere_else_and_nothing_moves(
             assert bench.drives() == (-1, -1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("say", "told"),
     [

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import pytest
-
-from rotator.links.browser import Beginning
+from rotator.links.stream import Beginning
 from tests.assembly.test_links import DIALOGUES, OUT_OF_RANGE
+from tests.tables import every_row
 
 METHODS = (b"GET", b"HEAD", b"POST", b"PUT", b"PATCH", b"DELETE", b"OPTIONS", b"CONNECT", b"TRACE")
 REQUESTS = [
@@ -15,7 +14,7 @@ REQUESTS = [
 ]
 
 
-@pytest.mark.parametrize("request_line", REQUESTS)
+@every_row("request_line", REQUESTS)
 def test_a_browser_is_known_before_its_first_line_ends(request_line: bytes) -> None:
     for cut in range(len(request_line)):
         beginning = Beginning()
@@ -28,6 +27,6 @@ def test_once_it_has_begun_otherwise_it_is_a_program() -> None:
     assert not any(beginning.is_a_browsers(piece) for piece in (b"p\n", b"POST / HTTP/1.1\r\n"))
 
 
-@pytest.mark.parametrize(("keys", "said"), [*((keys, asked) for keys, asked, _ in DIALOGUES), *OUT_OF_RANGE])
+@every_row(("keys", "said"), [*((keys, asked) for keys, asked, _ in DIALOGUES), *OUT_OF_RANGE])
 def test_no_program_begins_so_but_those_that_speak_http(keys: str, said: bytes) -> None:
     assert Beginning().is_a_browsers(said) is ("pstrotatoraz" in keys)

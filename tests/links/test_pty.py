@@ -158,6 +158,7 @@ async def test_any_byte_arrives_as_it_is_and_none_is_echoed(
         assert client.nothing()
 
 
+@pytest.mark.quiet
 @pytest.mark.parametrize("dialect", Dialect)
 async def test_where_nobody_reads_every_command_is_heard(
     path: Path, running: Running, end: OpenEnd, bench: Any, dialect: Dialect

@@ -19,7 +19,7 @@ from tests.machines.shack import Shack
 
 SEED = "ROTATOR_MACHINES_SEED"
 """Carries the seed to the worker processes, which must all have the same."""
-DAYS = 2
+DAYS = 1
 """Days of each machine, where the command does not say how many."""
 
 

@@ -6,6 +6,7 @@ a machine does in a day is in its test. Nothing here asks the box where the ante
 
 from __future__ import annotations
 
+import json
 import os
 import select
 import signal
@@ -58,6 +59,8 @@ class Shack:
     ptys: list[Path] = field(default_factory=list, init=False)
     ports: dict[str, int] = field(default_factory=dict, init=False)
     """The TCP port of each protocol."""
+    greeting: bytes = b"SIMULATED"
+    """What the box prints when it runs."""
     process: subprocess.Popen[bytes] | None = field(default=None, init=False)
     runs: int = field(default=0, init=False)
 
@@ -162,7 +165,7 @@ class Shack:
         with self.log_path.open("wb") as log:
             self.process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
         give_up_s = time.monotonic() + START_S
-        while b"SIMULATED" not in self.log_path.read_bytes():
+        while self.greeting not in self.log_path.read_bytes():
             assert self.process.poll() is None, f"the program ended at once: {self.log()}"
             assert time.monotonic() < give_up_s, f"the box says nothing: {self.log()}"
             time.sleep(LOOK_S)
@@ -177,6 +180,7 @@ class Shack:
         assert "Traceback" not in self.log(), self.log()
         assert self.world().drives == (0, 0), "a relay is on"
         assert self.world().shorted_s == 0.0, "both directions of a motor had current"
+        assert self.world().brake_harm == (0.0, 0), "a brake and its motor worked against each other"
 
     def cut(self) -> None:
         """The program dies between two instructions, and everything that it started with it."""
@@ -232,3 +236,18 @@ def fly(send: Callable[[float, float], None], points: Sequence[tuple[float, floa
     for number, (azimuth_deg, elevation_deg) in enumerate(points):
         time.sleep(max(0.0, begun_s + number * every_s - time.monotonic()))
         send(azimuth_deg, elevation_deg)
+
+
+def standing(machine: Shack) -> list[str]:
+    """What the file of the counts says of each axis."""
+    path = Path(machine.folder, "counts.json")
+    axes = json.loads(path.read_text())["axes"] if path.exists() else {}
+    return [axes.get(axis, {}).get("standing", "never") for axis in ("azimuth", "elevation")]
+
+
+def until_kept(machine: Shack) -> None:
+    """Wait until the file has both angles: a rest is written as soon as the coast is over."""
+    give_up_s = time.monotonic() + PATIENCE_S
+    while standing(machine) != ["known", "known"]:
+        assert time.monotonic() < give_up_s, standing(machine)
+        time.sleep(0.1)

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from rotator.cli.box import RunningBox
-from tests.machines.shack import PATIENCE_S, Shack, Terminal, fly
+from tests.machines.shack import Shack, Terminal, fly, standing, until_kept
 
 SPEED_DPS = 18.0
 NEAR_DEG = 6.0
@@ -73,21 +73,6 @@ def obeys(machine: Shack, pc: Terminal, place: Place) -> None:
     order(pc, place)
     stood = machine.arrives(*place, NEAR_DEG)
     assert read_back(pc) == pytest.approx(stood, abs=3.0)
-
-
-def standing(machine: Shack) -> list[str]:
-    """What the file of the counts says of each axis."""
-    path = Path(machine.folder, "counts.json")
-    axes = json.loads(path.read_text())["axes"] if path.exists() else {}
-    return [axes.get(axis, {}).get("standing", "never") for axis in ("azimuth", "elevation")]
-
-
-def until_kept(machine: Shack) -> None:
-    """Wait until the file has both angles: a rest is written as soon as the coast is over."""
-    give_up_s = time.monotonic() + PATIENCE_S
-    while standing(machine) != ["known", "known"]:
-        assert time.monotonic() < give_up_s, standing(machine)
-        time.sleep(0.1)
 
 
 def shows(machine: Shack, mode: str) -> None:

@@ -24,12 +24,13 @@ from rotator.monitor.transcript import (
     parse,
     unescape,
 )
+from tests.tables import every_row
 
 MOMENT = datetime(2026, 11, 21, 18, 3, 22, 114_600)
 BOX = Source("gs232b", 1)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("data", "line"),
     [
         (b"W235 025\r", r"18:03:22.114 gs232b#1 > W235 025\r"),
@@ -78,7 +79,7 @@ def test_it_round_trips_in_one_line_of_printable_characters(data: bytes, way: Wa
     assert (piece.source, piece.way, piece.data) == (source, way, data)
 
 
-@pytest.mark.parametrize(
+@every_row(
     "line",
     [
         "W235 025",

@@ -80,6 +80,7 @@ def answered(client: Listener, method: str) -> list[dict[str, Any]]:
     return [each for each in said if each["method"] == method]
 
 
+@pytest.mark.long
 async def test_it_tells_what_rotator_where_tells_and_obeys_the_methods_of_the_page(
     tmp_path: Path, broker: NewBroker, listener: NewListener
 ) -> None:
@@ -120,6 +121,7 @@ async def test_without_leave_it_may_stop_and_no_more(tmp_path: Path, broker: New
         assert running.status.wanted_azimuth_deg is None
 
 
+@pytest.mark.quiet
 async def test_a_broker_that_goes_takes_its_jog_along_and_is_found_again(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -173,6 +175,7 @@ async def test_two_boxes_on_one_broker_hear_each_its_own_orders_and_both_the_sto
     assert client.latest("rotator/north/availability") == "offline"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("may", ["look", "stop", "move"])
 async def test_a_message_that_is_too_long_and_kept_is_never_read_and_the_box_goes_on(
     tmp_path: Path, broker: NewBroker, listener: NewListener, caplog: pytest.LogCaptureFixture, may: str
@@ -222,6 +225,7 @@ async def test_a_stop_that_is_too_long_stops_and_is_told_once(
     assert len([each for each in caplog.messages if "too long" in each]) == 1
 
 
+@pytest.mark.quiet
 def test_250_megabytes_on_the_broker_take_no_memory_of_a_box_of_400(
     tmp_path: Path, broker: NewBroker, listener: NewListener
 ) -> None:
@@ -278,6 +282,7 @@ def certificates(tmp_path: Path, need_program: Callable[[str, str], str]) -> Pat
 OF_THE_BOX = 'ca_file = "{0}/ca.pem"\ncert_file = "{0}/box.pem"\n'
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("keys", "said"),
     [

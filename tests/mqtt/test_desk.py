@@ -20,6 +20,7 @@ from rotator.mqtt.desk import LONGEST, Desk
 from rotator.mqtt.topics import Topics, discovery
 from rotator.protocols.methods import METHODS
 from rotator.protocols.operating import Operating
+from tests.tables import every_row
 
 AT_REST = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
 POINT = b'{"azimuth_deg": 200, "elevation_deg": 30}'
@@ -53,7 +54,7 @@ def test_a_message_is_the_method_of_the_page() -> None:
     assert box.orders == [Aim(200.0, 30.0)]
 
 
-@pytest.mark.parametrize("payload", [b"", b"PRESS", b" ", b"no JSON", b"[1]", b"\xff"])
+@every_row("payload", [b"", b"PRESS", b" ", b"no JSON", b"[1]", b"\xff"])
 def test_a_stop_counts_whatever_the_message_says(payload: bytes) -> None:
     box = Box()
     assert desk(box, "stop").do("stop", payload, kept=False)["ok"] is True
@@ -66,7 +67,7 @@ def test_a_button_of_home_assistant_is_a_message_without_values() -> None:
     assert box.orders == [Park(storm=True)]
 
 
-@pytest.mark.parametrize("name", [method.name for method in METHODS])
+@every_row("name", [method.name for method in METHODS])
 def test_a_message_that_the_broker_has_kept_orders_nothing(name: str) -> None:
     box = Box()
     answer = desk(box).do(name, POINT, kept=True)
@@ -84,7 +85,7 @@ def test_what_may_only_look_or_stop_does_no_more(may: str, obeys: set[str]) -> N
         assert bool(box.orders) is (method.name in obeys)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("name", "payload", "says"),
     [
         ("fly", b"", "there is no method 'fly': stop, resume"),
@@ -120,6 +121,12 @@ def test_home_assistant_gets_only_buttons_that_do_something_and_forgets_the_othe
         "homeassistant/button/shack_rotator/stop/config"
     ]
     assert None not in found("move").values()
+
+
+def test_an_axis_that_is_not_fitted_is_no_entity() -> None:
+    said = dict(discovery(Topics("shack/rotator"), "move", ["azimuth"]))
+    assert said["homeassistant/sensor/shack_rotator/elevation/config"] == ""
+    assert json.loads(said["homeassistant/sensor/shack_rotator/azimuth/config"])["name"] == "Azimuth"
 
 
 def test_each_entity_has_an_id_of_its_own_and_topics_of_the_box() -> None:
@@ -168,7 +175,7 @@ def test_without_either_the_machine_s_name_keeps_two_boxes_apart() -> None:
     assert topics.base not in ("rotator/raspberrypi", "rotator/localhost", "rotator/all")
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("keys", "says"),
     [
         ({"box": "all"}, '"all" is the name of every box: take another'),
@@ -180,7 +187,6 @@ def test_without_either_the_machine_s_name_keeps_two_boxes_apart() -> None:
         ({"cert_file": "x"}, "cert_file goes with tls = true"),
         ({"key_file": "x", "tls": True}, "key_file goes with cert_file"),
     ],
-    ids=str,
 )
 def test_keys_that_cannot_be_say_so(keys: dict[str, Any], says: str) -> None:
     with pytest.raises(ValidationError, match=re.escape(says)):

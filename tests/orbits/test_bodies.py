@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from rotator.orbits.celestial import BODIES, RADIO_SOURCES, Body, RadioSource
 from rotator.orbits.earth import Site
 from tests.orbits import skyfield_oracle
+from tests.tables import every_row
 
 PROMISED_DEG = 0.01
 SITES = st.builds(Site, st.floats(-90, 90), st.floats(-180, 180), st.floats(-400, 4000))
@@ -28,7 +29,7 @@ def test_another_name_is_refused_with_the_names_there_are() -> None:
         Body("vulcan", Site(0, 0))
 
 
-@pytest.mark.parametrize("name", RADIO_SOURCES)
+@every_row("name", RADIO_SOURCES)
 def test_a_radio_source_goes_round_in_a_sidereal_day(name: str) -> None:
     source = RadioSource(name, Site(52.4, 13.1))
     assert source.sight(1.8e9).apart_deg(source.sight(1.8e9 + 86_164.0905)) < PROMISED_DEG

@@ -10,12 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.orbits.earth import Site, direction
+from tests.tables import every_row
 
 BERLIN = Site(52.52, 13.405, 34)
 PLACES = st.builds(Site, st.floats(-89, 89), st.floats(-180, 180), st.floats(0, 40_000))
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("place", "azimuth_deg", "elevation_deg"),
     [
         (Site(52.52, 13.405, 30_000), None, 90),

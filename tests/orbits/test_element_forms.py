@@ -14,6 +14,7 @@ from rotator.orbits.element_files import MOST_BYTES, is_fault, parse, text_of
 from rotator.orbits.elements import Elements, Notice
 from tests.orbits.test_omm import MESSAGE, as_csv, close
 from tests.orbits.test_tle import ISS, sums_up
+from tests.tables import every_row
 
 NAME, ONE, TWO = ISS.splitlines()
 XML = "".join(f"<{key}>{value}</{key}>" for key, value in MESSAGE.items())
@@ -75,14 +76,14 @@ SAVED: dict[str, Callable[[str], bytes]] = {
 }
 
 
-@pytest.mark.parametrize("saved", SAVED)
-@pytest.mark.parametrize("form", TEXTS)
-def test_every_form_in_every_encoding(form: str, saved: str) -> None:
+@every_row("form", TEXTS)
+def test_every_form_in_every_encoding(form: str) -> None:
     (expected,) = parse(ISS)
-    found = list(parse(text_of(SAVED[saved](TEXTS[form]))))
-    assert found
-    assert all(close(each, expected) for each in found)
-    assert {each.name for each in found if isinstance(each, Elements)} <= {NAME, "25544"}
+    for saved, encoded in SAVED.items():
+        found = list(parse(text_of(encoded(TEXTS[form]))))
+        assert found, saved
+        assert all(close(each, expected) for each in found), saved
+        assert {each.name for each in found if isinstance(each, Elements)} <= {NAME, "25544"}, saved
 
 
 @pytest.mark.parametrize(
@@ -113,7 +114,7 @@ def test_a_set_without_checksum_is_taken_with_a_notice() -> None:
     assert told.startswith("line 2: 2 sets without checksum are taken")
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "told"),
     [
         (AMSAT.replace("9996", "9995"), "line 13: the checksum of its first line is 6, not 5"),
@@ -129,7 +130,7 @@ def test_what_is_wrong_is_told_with_its_place(text: str, told: str) -> None:
     assert [str(each)[: len(told)] for each in parse(text)] == [told]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("content", "told"),
     [
         (b"<!DOCTYPE html><html><body>404 Not Found</body></html>", "it is a web page"),

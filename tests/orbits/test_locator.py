@@ -17,11 +17,12 @@ from rotator.orbits.locator import (
     to_dms,
     to_locator,
 )
+from tests.tables import every_row
 
 LONGITUDES, LATITUDES = st.floats(-179.9, 179.9), st.floats(-89.9, 89.9)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("longitude_deg", "latitude_deg", "pairs", "text"),
     [
         (-70.5, 42.3, 3, "FN42SH"),
@@ -40,7 +41,7 @@ def test_to_locator(longitude_deg: float, latitude_deg: float, pairs: int, text:
     assert to_locator(longitude_deg, latitude_deg, pairs) == text
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "place"),
     [
         ("FN42rh", (-70.541667, 42.3125)),
@@ -57,7 +58,7 @@ def test_from_locator(text: str, place: tuple[float, float]) -> None:
     assert from_locator(text) == pytest.approx(place, abs=1e-6)
 
 
-@pytest.mark.parametrize("text", ["", "F", "ZZ99zz", "SS00aa", "4242", "FNAA", "FN42yy", "FN42rh12ay", "ÄÖ42", "FN4²"])
+@every_row("text", ["", "F", "ZZ99zz", "SS00aa", "4242", "FNAA", "FN42yy", "FN42rh12ay", "ÄÖ42", "FN4²"])
 def test_what_is_no_locator(text: str) -> None:
     with pytest.raises(ValueError, match="locator"):
         from_locator(text)
@@ -76,7 +77,7 @@ def test_a_place_is_in_its_own_square(longitude_deg: float, latitude_deg: float,
     assert abs(middle[1] - latitude_deg) <= side_deg / 2 + 1e-5
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("decimal_deg", "dms"),
     [
         (-70.51, (70, 30, 36, True)),
@@ -115,7 +116,7 @@ def test_the_signs_of_the_parts_mean_nothing() -> None:
     assert from_dms(10, -5, -6, south_or_west=True) == pytest.approx(-10.085)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("here", "there", "km", "bearing_deg"),
     [
         ((-70.5, 42.3), (10.2, 50.1), 5963.774144, 52),

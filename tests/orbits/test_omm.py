@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from rotator.orbits import omm
 from rotator.orbits.elements import Elements
+from tests.tables import every_row
 
 MESSAGE: dict[str, Any] = {
     "OBJECT_NAME": "ISS (ZARYA)",
@@ -58,7 +59,7 @@ def test_catalogue_numbers_have_up_to_nine_digits(number: int) -> None:
         assert [each.catalogue_number for each in found if isinstance(each, Elements)] == [number]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("change", "told"),
     [
         ({"MEAN_MOTION": "fast"}, "MEAN_MOTION is 'fast', no number"),

@@ -56,6 +56,7 @@ def names(news: list[News]) -> list[tuple[type, str]]:
 # --- what is recognised
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SATELLITES)
 @pytest.mark.parametrize("number", [0, 1, 2])
 @pytest.mark.parametrize("ahead_s", [-5.0, 0.0, 5.0])
@@ -203,6 +204,7 @@ def test_where_many_are_known_one_that_stands_is_none_of_them() -> None:
     assert heard(watch, standing(ISS(rise_s("ISS"))), rise_s("ISS"), 60) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("behind_s", [0.0, 1.0, 4.0])
 def test_of_two_satellites_on_one_path_none_is_named(behind_s: float) -> None:
     elements = FLYING["ISS"]

@@ -20,6 +20,7 @@ from rotator.orbits.recognition import StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.stream_fit import ORDERS
 from tests.search import examples
+from tests.tables import every_row
 
 LATE_S = 10.0
 
@@ -30,7 +31,7 @@ LATE_S = 10.0
 def test_a_satellite_is_recognised_within_ten_seconds(rounding: str, known: int, in_use: bool, period_s: float) -> None:
     dice = random.Random(f"{rounding} {known} {period_s}")
     elements, late = catalogue(dice, known), []
-    count = examples(120)
+    count = examples(64)
     for rise in rises(dice, elements, count):
         likely = used(rise, elements, dice) if in_use else ()
         watch = StreamWatch([Satellite(each, rise.site) for each in elements], likely)
@@ -48,7 +49,7 @@ def test_any_other_is_recognised_when_its_whole_degrees_have_changed(rounding: s
     dice = random.Random(f"any {rounding}")
     elements = catalogue(dice, 100)
     after_s = []
-    for rise in rises(dice, elements, examples(120)):
+    for rise in rises(dice, elements, examples(64)):
         watch = StreamWatch([Satellite(each, rise.site) for each in elements])
         name, late_s = recognised_after_s(rise, watch, Program(ROUNDINGS[rounding]), dice)
         assert name == rise.elements.name
@@ -68,7 +69,7 @@ def test_a_program_that_waits_at_the_horizon_is_recognised_when_its_elevation_le
     for rounds, soon_s in ((ROUNDINGS["rounded"], rounded_s), (math.floor, cut_off_s)):
         dice = random.Random(f"early {waits}")
         elements, after_s = catalogue(dice, 20), []
-        for rise in rises(dice, elements, examples(80)):
+        for rise in rises(dice, elements, examples(40)):
             watch = StreamWatch([Satellite(each, rise.site) for each in elements])
             name, late_s = recognised_after_s(rise, watch, Program(rounds, early_s=EARLY_S, waits=waits), dice)
             assert name == rise.elements.name
@@ -84,7 +85,7 @@ def test_a_program_that_joins_in_the_middle_of_a_pass_is_recognised(rounding: st
     """When the satellite has moved by three degrees; three of four before so many orders have come as are kept."""
     dice = random.Random(f"{rounding} {joins}")
     elements, after_s = catalogue(dice, 80), []
-    for rise in rises(dice, elements, examples(80)):
+    for rise in rises(dice, elements, examples(40)):
         watch = StreamWatch([Satellite(each, rise.site) for each in elements])
         name, late_s = recognised_after_s(rise, watch, Program(ROUNDINGS[rounding], joins=joins), dice)
         assert name in ("", rise.elements.name)
@@ -93,8 +94,8 @@ def test_a_program_that_joins_in_the_middle_of_a_pass_is_recognised(rounding: st
     assert sorted(after_s)[len(after_s) * 3 // 4] < KEPT
 
 
-@pytest.mark.parametrize("known", [1, 3, 14, 100, 1000])
-@pytest.mark.parametrize("likely", [0, 1, 8, 12])
+@every_row("known", [1, 3, 14, 100, 1000])
+@every_row("likely", [0, 1, 8, 12])
 def test_the_shares_of_all_satellites_add_up(known: int, likely: int) -> None:
     if likely > known:
         return

@@ -17,6 +17,7 @@ from rotator.orbits.sight import Sight
 from rotator.orbits.targets import find
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.next_flight import Wanted
+from tests.tables import every_row
 
 EARTH_KM = 6370.0
 """As in ITU-R P.834."""
@@ -40,14 +41,14 @@ def followed(apparent_deg: float, station_km: float) -> float:
     return math.degrees(total)
 
 
-@pytest.mark.parametrize("station_km", [0.0, 0.5, 1.0, 2.0, 3.0])
-@pytest.mark.parametrize("apparent_deg", [0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 6.0, 8.0, 10.0, 15.0, 30.0, 60.0, 85.0])
+@every_row("station_km", [0.0, 0.5, 1.0, 2.0, 3.0])
+@every_row("apparent_deg", [0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 6.0, 8.0, 10.0, 15.0, 30.0, 60.0, 85.0])
 def test_it_is_that_of_a_ray_through_the_reference_atmosphere(apparent_deg: float, station_km: float) -> None:
     true_deg = apparent_deg - followed(apparent_deg, station_km)
     assert bent_deg(true_deg, station_km * 1000) == pytest.approx(followed(apparent_deg, station_km), abs=0.015)
 
 
-@pytest.mark.parametrize("elevation_deg", [15.0, 20.0, 30.0, 45.0, 60.0, 80.0])
+@every_row("elevation_deg", [15.0, 20.0, 30.0, 45.0, 60.0, 80.0])
 def test_higher_up_it_is_that_of_sofas_radio_constants(elevation_deg: float) -> None:
     """At 1013 hPa, 15 °C and 60 % humidity, for 1.5 GHz (200 mm)."""
     a, b = erfa.refco(1013.25, 15.0, 0.6, 200_000.0)

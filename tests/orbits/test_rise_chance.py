@@ -16,6 +16,7 @@ from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Sight
 from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath
 from tests.search import examples
+from tests.tables import every_row
 
 HALF_DAY_S = 43_200.0
 ROUND_RISE_S, ROUND_RISE_DEG = 16.0, 3.0
@@ -93,7 +94,7 @@ def test_the_longer_it_stands_the_fewer_satellites_fit() -> None:
     assert all(rounded <= either for _, rounded, either in STANDING)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "from_s", "lasts_s", "expected"),
     [
         (90.0, 0.0, 8.0, 2.8e-6),
@@ -126,7 +127,7 @@ def leaves(azimuth_deg: float, at_s: float, rounding: float = 1.0) -> list[Heard
     return [Heard(at_s - 1.0, azimuth_deg, 0.0), Heard(at_s, azimuth_deg, rounding)]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "at_s", "fits"),
     [
         (90.0, 10.0, True),  # rounded: half a degree high

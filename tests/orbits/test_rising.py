@@ -20,6 +20,7 @@ from tests.orbits.streams import PROGRAM, Path, great_circle, orders, path_of, w
 from tests.orbits.test_recognition import SATELLITES, rise_s
 from tests.orbits.test_satellite import PARIS
 from tests.search import examples
+from tests.tables import every_row
 
 NAME = "SO-50"
 
@@ -50,6 +51,7 @@ def watch() -> StreamWatch:
     return StreamWatch(SATELLITES.values())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SATELLITES)
 @pytest.mark.parametrize("rounds", [math.floor, whole, lambda deg: whole(deg * 100) / 100])
 @pytest.mark.parametrize("ahead_s", [-5.0, 0.0, 5.0])
@@ -65,9 +67,9 @@ def test_a_satellite_is_waited_for_before_its_rise_whatever_the_program_sends_un
     assert watch.followed(PROGRAM) is None, "it is not recognised by this"
 
 
-@pytest.mark.parametrize("name", SATELLITES)
-@pytest.mark.parametrize("before_s", [30.0, 400.0, 1150.0])
-@pytest.mark.parametrize("digits", [1, 2])
+@every_row("name", SATELLITES)
+@every_row("before_s", [30.0, 400.0, 1150.0])
+@every_row("digits", [1, 2])
 def test_one_order_finer_than_whole_degrees_names_a_satellite_in_use(name: str, before_s: float, digits: int) -> None:
     """A program that sends an order only when its target has moved sends one, and nothing until the rise."""
     path = waiting(name)
@@ -121,7 +123,7 @@ def test_of_two_that_fly_one_behind_the_other_none_is_waited_for() -> None:
 @pytest.mark.search
 def test_hardly_a_single_order_waits_for_one_of_a_dozen_in_use() -> None:
     dice = random.Random("one order at the horizon")
-    elements, taken, count = catalogue(dice, 100), 0, examples(800)
+    elements, taken, count = catalogue(dice, 100), 0, examples(400)
     known = [Satellite(each, Site(48.85, 2.35)) for each in elements]
     for _ in range(count):
         watch = StreamWatch(known, [each.name for each in dice.sample(elements, 12)])
@@ -137,7 +139,7 @@ def test_hardly_a_stream_at_random_waits_for_one_of_a_hundred(*, moves: bool) ->
     dice = random.Random(f"at the horizon {moves}")
     elements, site, taken = catalogue(dice, 100), Site(48.85, 2.35), 0
     known = [Satellite(each, site) for each in elements]
-    count = examples(400)
+    count = examples(200)
     for _ in range(count):
         from_s = elements[0].epoch_utc_s + dice.uniform(0, 86_400.0)
         stands = Sight(dice.uniform(0, 360), 0.0, math.inf)

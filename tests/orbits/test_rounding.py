@@ -13,6 +13,7 @@ from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.stream_fit import FINEST_DEG, Heard, rounding_deg
 from rotator.orbits.targets import find
 from tests.orbits.streams import orders, path_of
+from tests.tables import every_row
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, pass_of
 
 HAMLIB = Source("rotctld", 1)
@@ -24,8 +25,8 @@ def as_sent(angle_deg: float) -> float:
     return float(f"{single:f}")
 
 
-@pytest.mark.parametrize("digits", [0, 1, 2])
-@pytest.mark.parametrize("sent", [float, as_sent])
+@every_row("digits", [0, 1, 2])
+@every_row("sent", [float, as_sent])
 def test_the_rounding_of_any_angle_is_found(digits: int, sent: Callable[[float], float]) -> None:
     step = 10.0**-digits
     for first in range(0, 3600, 7):
@@ -40,10 +41,8 @@ LATE_S = (0.0, 0.3, 0.1, 0.2)
 """So late its orders come, one after the other."""
 
 
-@pytest.mark.parametrize(
-    ("name", "digits"), [("iss", 0), ("iss", 1), ("iss", 2), ("so-50", 0), ("so-50", 1), ("rs-44", 1)]
-)
-@pytest.mark.parametrize("after_s", [130.0, 250.0])
+@every_row(("name", "digits"), [("iss", 0), ("iss", 1), ("iss", 2), ("so-50", 0), ("so-50", 1), ("rs-44", 1)])
+@every_row("after_s", [130.0, 250.0])
 def test_a_stream_of_hamlib_is_recognised(name: str, digits: int, after_s: float) -> None:
     satellite = find(name, BERLIN, Catalogue((str(ELEMENTS),)))
     rises_s = pass_of(name).aos_s

@@ -6,14 +6,15 @@ import pytest
 
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
-from rotator.orbits.targets import find
+from rotator.orbits.targets import Fixed, find
 from tests.orbits.skyfield_oracle import TLE
+from tests.tables import every_row
 
 BERLIN = Site(52.5, 13.4)
 KNOWN = Catalogue([str(TLE)])
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("said", "name"),
     [
         ("sun", "Sun"),
@@ -55,12 +56,27 @@ def test_another_station_by_its_locator_the_short_way_and_the_long() -> None:
     assert (short.elevation_deg, long.elevation_deg) == (0.0, 0.0)
 
 
+def test_a_country_the_short_way_and_the_long() -> None:
+    """From Berlin, New Zealand is nearly on the other side of the earth; a satellite of that name goes first."""
+    short, long = (find(f"New Zealand{path}", BERLIN, KNOWN) for path in (" sp", " lp"))
+    assert isinstance(short, Fixed)
+    assert short.place == "New Zealand sp"
+    assert short.where.range_km == pytest.approx(18_000, abs=500)
+    assert long.sight(0.0).azimuth_deg == pytest.approx((short.where.azimuth_deg + 180) % 360)
+    assert find("JA1ABC", BERLIN, KNOWN).sight(0.0).azimuth_deg == pytest.approx(44, abs=3)
+    assert find("iss", BERLIN, KNOWN).name == "ISS"
+    with pytest.raises(Unknown, match="may be South Korea, North Korea: name one"):
+        find("korea", BERLIN, KNOWN)
+    with pytest.raises(Unknown, match="perhaps Germany"):
+        find("Germani", BERLIN, KNOWN)
+
+
 def test_the_own_square_has_no_direction() -> None:
     with pytest.raises(Unknown, match='"JO62qm" is where the antenna stands'):
         find("JO62qm", Site(52.520833, 13.375), KNOWN)
 
 
-@pytest.mark.parametrize("said", ["", "isx", "JN58td up", "45", "ZZ99"])
+@every_row("said", ["", "isx", "JN58td up", "45", "ZZ99"])
 def test_what_is_no_target(said: str) -> None:
     with pytest.raises(Unknown):
         find(said, BERLIN, KNOWN)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from rotator.orbits import tle
 from rotator.orbits.elements import Elements
+from tests.tables import every_row
 
 ISS = """\
 ISS (ZARYA)
@@ -60,7 +61,7 @@ def test_space_track_writes_a_zero_before_the_name() -> None:
     assert iss.name == "ISS (ZARYA)"
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("written", "number"),
     [("00005", 5), ("    5", 5), ("99999", 99999), ("A0000", 100000), ("Z9999", 339999), ("J2931", 182931)],
 )
@@ -77,7 +78,7 @@ def test_a_satellite_launched_in_1958_has_an_epoch_of_that_century() -> None:
     assert datetime.fromtimestamp(found.epoch_utc_s, UTC) == datetime(1958, 1, 1, tzinfo=UTC)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "told"),
     [
         (ISS.replace("9996", "9995"), "line 2: the checksum of its first line is 6, not 5"),

@@ -22,7 +22,7 @@ CLEARLY_S = 12.0
 def test_a_satellite_is_not_taken_for_its_neighbour_in_a_train() -> None:
     dice = random.Random(15)
     elements = catalogue(dice, 20)
-    found = [outcome(dice, each, elements) for each in trains(dice, elements, examples(160), 8.0, 60.0)]
+    found = [outcome(dice, each, elements) for each in trains(dice, elements, examples(64), 8.0, 60.0)]
     clearly = [each.wrong for each in found if each.seems_off_s > CLEARLY_S]
     assert sum(clearly) <= len(clearly) / 40, "orders at the horizon, before or after the rise, tell little"
     nearer = [each.wrong for each in found if CLOCKS_S[-1] + 1.0 < each.seems_off_s <= CLEARLY_S]

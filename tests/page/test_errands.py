@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,15 @@ def test_a_counted_axis_is_homed_after_a_question(start: Callable[..., Station],
     page.get_by_text("The azimuth looks for its low end stop.").wait_for()
     waits_for(page, lambda: bool(station.world().relay_starts))
     home.wait_for()
+
+
+def test_an_angle_that_is_reckoned_by_time_says_so_and_its_axis_is_homed(
+    start: Callable[..., Station], visit: Callable[..., Page]
+) -> None:
+    page = visit(start(kind="relay-timed"))
+    page.get_by_text(re.compile(r"^≈ [\d.]+° ± [?]$")).first.wait_for()
+    pair(page)
+    page.get_by_role("button", name="Home the azimuth").wait_for()
 
 
 def test_an_axis_that_is_measured_is_not_homed(start: Callable[..., Station], visit: Callable[..., Page]) -> None:

@@ -1,4 +1,4 @@
-"""The first minute before the page: looking on, STOP without a login, and pairing. Short enough for `make test`."""
+"""The first minute before the page: looking on, STOP without a login, and pairing."""
 
 from __future__ import annotations
 

@@ -30,15 +30,17 @@ def test_a_comma_and_a_point_mean_the_same_in_every_language(start: Start, visit
     assert (targets["azimuth"]["target_deg"], targets["elevation"]["target_deg"]) == (12.5, 40.25)
 
 
-@pytest.mark.parametrize("typed", ["1.2.5", "12,5,3", "1e2", "0x10", "twelve", "12 5", "Infinity", "-", ","])
-def test_what_is_no_number_moves_nothing(start: Start, visit: Visit, typed: str) -> None:
+def test_what_is_no_number_moves_nothing(start: Start, visit: Visit) -> None:
     station = start()
     page = visit(station)
     pair(page)
-    page.get_by_label("Azimuth", exact=True).press_sequentially(typed)
+    azimuth = page.get_by_label("Azimuth", exact=True)
     page.get_by_label("Elevation", exact=True).press_sequentially("40")
-    page.get_by_role("button", name="Point there").click()
-    assert page.get_by_label("Azimuth", exact=True).evaluate("field => field.validity.patternMismatch")
+    for typed in ("1.2.5", "12,5,3", "1e2", "0x10", "twelve", "12 5", "Infinity", "-", ","):
+        azimuth.fill("")
+        azimuth.press_sequentially(typed)
+        page.get_by_role("button", name="Point there").click()
+        assert azimuth.evaluate("field => field.validity.patternMismatch"), typed
     page.keyboard.press("Escape")
     page.get_by_role("button", name="Let it move again").wait_for()
     assert page.request.get(f"{station.url}/api/status").json()["azimuth"]["target_deg"] is None

@@ -67,7 +67,7 @@ class Bench:
         self.gpio = SimGpio(clock)
         self.lines = Lines(self.gpio)
         self.wire = SimI2CBus(sleep)
-        self.sim = SimPanel(SPEC, self.gpio, self.wire, clock)
+        self.sim = SimPanel(SPEC, self.gpio, lambda _number: self.wire, clock)
         self.status = Status(
             0.0,
             AxisStatus(0.0, 360.0, angle_deg=90.0, source=AngleSource.COUNTED),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 from dataclasses import replace
-from typing import Any, cast
 
 import pytest
 
@@ -14,11 +13,11 @@ from firmware_sim.clock import SimClock
 from firmware_sim.panel import PanelSpec, SimPanel
 from hw.buses.gpio import GpioInputs
 from hw.ports import Direction
-from rotator.exchange.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
+from rotator.exchange.orders import Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
-from tests.panel.desk import AUTO, AZ, EL, FULL_SCALE, JOG, MANUAL, PARK, Desk, in_mode
+from tests.panel.desk import AUTO, AZ, EL, FULL_SCALE, JOG, PARK, Desk, in_mode
 
 
 @pytest.mark.parametrize(("position", "name"), list(enumerate(("manual", "park", "auto", "jog"))))
@@ -38,40 +37,6 @@ def test_a_needle_reaches_its_end_and_no_further() -> None:
     desk.status = replace(desk.status, azimuth=replace(desk.status.azimuth, angle_deg=360.0))
     desk.waits(0.2)
     assert desk.sim.board.high_share(0) == pytest.approx(FULL_SCALE, abs=0.001)
-
-
-def test_knobs_send_the_antenna_in_manual() -> None:
-    desk = in_mode(MANUAL)
-    for tenth in range(1, 6):
-        desk.sim.turn_knob("azimuth", tenth / 10)
-        assert desk.waits(0.2) == []
-    assert desk.needles() == pytest.approx((0.5, 0.25), abs=0.004)
-    assert desk.waits(1.2) == [Aim(cast(Any, pytest.approx(180.0, abs=0.5)), None, place=True)]
-    assert desk.needles() == pytest.approx((0.25, 0.25), abs=0.004)
-
-
-def test_jog_drives_while_held_and_two_at_once_stop() -> None:
-    desk = in_mode(JOG)
-    desk.sim.throw("elevation", -1)
-    assert set(desk.waits(1.0)) == {Jog(EL, Direction.MINUS, 0.3)}
-    desk.sim.throw("azimuth", 1)
-    assert desk.waits(1.0) == [Stop((EL,))]
-    desk.sim.throw("elevation", 0)
-    assert desk.waits(1.0) == []
-
-
-def test_the_stop_button_and_the_way_back() -> None:
-    desk = in_mode(JOG)
-    desk.sim.throw("azimuth", 1)
-    desk.waits(0.5)
-    desk.sim.press_stop()
-    assert desk.waits(2.0) == [Stop(latch=True)]
-    assert desk.sim.lit() == {"jog", "stop"}
-    desk.sim.pull_stop()
-    assert desk.waits(2.0) == []
-    desk.sim.turn_mode(AUTO)
-    assert desk.waits(2.0) == [Release(), SetMode(Mode.AUTO)]
-    assert desk.sim.lit() == {"auto"}
 
 
 @pytest.mark.parametrize(("refusals", "seconds"), [(1, 12.0), (3, 32.0)])
@@ -137,7 +102,7 @@ def test_at_the_end_it_is_dark_also_where_the_chip_has_just_failed_to_answer() -
 def test_a_stop_button_alone_is_a_panel() -> None:
     clock = SimClock()
     gpio = SimGpio(clock)
-    sim = SimPanel(PanelSpec(stop=16), gpio, SimI2CBus(), clock)
+    sim = SimPanel(PanelSpec(stop=16), gpio, lambda _number: SimI2CBus(), clock)
     posted: list[Order] = []
     status = Status(0.0, AxisStatus(0.0, 360.0), AxisStatus(0.0, 180.0))
     inputs = GpioInputs(gpio, "/dev/gpiochip0", {"stop": 16}, consumer="panel")

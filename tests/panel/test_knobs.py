@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from rotator.exchange.orders import Aim, Order
 from tests.panel.person import LOOK_S, MANUAL, Person, about, at_the_panel
 from tests.search import examples
+from tests.tables import every_row
 
 RANGE_DEG = 360.0
 Noise = Callable[[random.Random], float]
@@ -39,8 +40,8 @@ def at_rest(share: float) -> Person:
     return person
 
 
-@pytest.mark.parametrize("wrong", [1, 2])
-@pytest.mark.parametrize("by", [0.015, -0.015, 0.3, -0.2])
+@every_row("wrong", [1, 2])
+@every_row("by", [0.015, -0.015, 0.3, -0.2])
 def test_a_spark_of_one_reading_or_two_moves_nothing(by: float, wrong: int) -> None:
     person = at_rest(0.2)
     assert person.waits(wrong * LOOK_S, azimuth_knob=0.2 + by) == []
@@ -54,6 +55,7 @@ def test_neither_does_a_hand_that_turns_it_away_and_back() -> None:
     assert person.waits(5.0, azimuth_knob=0.2) == []
 
 
+@pytest.mark.long
 @settings(max_examples=examples(60), deadline=None)
 @given(kind=st.sampled_from(sorted(NOISES)), size=SIZES, share=st.floats(0.0, 1.0), seed=st.integers(0, 2**32))
 def test_noise_moves_nothing(kind: str, size: float, share: float, seed: int) -> None:

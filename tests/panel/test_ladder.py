@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-import pytest
-
 from hw.ports import Direction
 from rotator.panel.ladder import HALF_BAND, LEVELS, level, thrown
 from tests.panel.person import MINUS, OFF, PLUS
+from tests.tables import every_row
 
 
 def test_the_ladder_s_levels_are_those_of_its_description() -> None:
@@ -23,7 +22,7 @@ def test_no_two_bands_meet() -> None:
     assert min(high - low for low, high in pairwise(sorted(LEVELS.values()))) > 2 * HALF_BAND
 
 
-@pytest.mark.parametrize("throw", LEVELS)
+@every_row("throw", LEVELS)
 def test_a_band_is_as_wide_as_resistors_of_one_percent_and_a_supply_3_percent_off(
     throw: tuple[Direction, Direction],
 ) -> None:
@@ -33,6 +32,6 @@ def test_a_band_is_as_wide_as_resistors_of_one_percent_and_a_supply_3_percent_of
         assert thrown(share - worst * 0.99) == thrown(share + worst * 0.99) == throw
 
 
-@pytest.mark.parametrize("share", [0.0, 0.1, 0.32, 0.39, 0.46, 0.54, 0.61, 0.68, 0.9, 1.0, 1.05])
+@every_row("share", [0.0, 0.1, 0.32, 0.39, 0.46, 0.54, 0.61, 0.68, 0.9, 1.0, 1.05])
 def test_a_reading_between_bands_or_at_an_end_is_nothing(share: float) -> None:
     assert thrown(share) is None

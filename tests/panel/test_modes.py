@@ -33,6 +33,7 @@ from tests.panel.person import (
     at_the_panel,
     presses,
 )
+from tests.tables import every_row
 
 # --- the mode switch
 
@@ -190,7 +191,7 @@ def test_in_jog_it_drives_while_held_and_stops_when_let_go() -> None:
     assert person.waits(1.0, jog=CENTRE) == [Stop((AZ,))]
 
 
-@pytest.mark.parametrize("jog", [CW_AND_UP, UP, None, 0.0, 1.0], ids=["two", "other", "gone", "ground", "supply"])
+@every_row("jog", [CW_AND_UP, UP, None, 0.0, 1.0])
 def test_any_other_reading_stops_it_until_all_switches_are_released(jog: float | None) -> None:
     person = at_the_panel(JOG)
     person.waits(0.5, jog=CW)

@@ -44,7 +44,7 @@ class Notebook:
 def connected(protocol: str, box: Box, **keys: object) -> Session:
     """A connection on a link of this protocol, with these keys beside its place."""
     link = Link.model_validate({"protocol": protocol, **PLACES.get(protocol, {"pty": "x"}), **keys})
-    return session_maker(link, box, sky=SKY)
+    return session_maker(link, sky=SKY)(box)
 
 
 def assert_well_formed(session: Session, pieces: Sequence[bytes], silences: Collection[int], pattern: bytes) -> None:

@@ -21,6 +21,7 @@ from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.protocols.session import Box, Session
 from rotator.protocols.wsjtx import WsjtxSession
 from tests.search import examples
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -152,11 +153,11 @@ def test_a_datagram_stands_for_itself(new_box: type[BenchBox], protocol: str, da
     assert many.orders == one.orders
 
 
-@pytest.mark.parametrize(
+@every_row(
     "piece",
     [b"<PST>", b"<AZIMUTH>", b"</PST><PST>", b"AZ?", b"<stop>", b"<a></a>", b"[AzEl Rotor Report:", b"12:", b" "],
 )
-@pytest.mark.parametrize("protocol", SESSIONS)
+@every_row("protocol", SESSIONS)
 def test_the_longest_datagram_costs_next_to_nothing(new_box: type[BenchBox], protocol: str, piece: bytes) -> None:
     """Tags without end must not make the reading slow: a pattern that tries every way would take minutes."""
     session = SESSIONS[protocol](new_box())

@@ -41,6 +41,7 @@ from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Session
 from tests.protocols.fed import Notebook
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -115,7 +116,7 @@ MISTAKES = [
     (b"jog cw 0", "'0' is no time to jog: seconds, 5 at most"),
     (b"jog cw -1", "'-1' is no time to jog: seconds, 5 at most"),
     (b"jog cw nan", "'nan' is no time to jog: seconds, 5 at most"),
-    (b"point 235", "write it like this: point AZIMUTH ELEVATION"),
+    (b"point", "write it like this: point AZIMUTH [ELEVATION]"),
     (b"point 721 25", "'721' is no azimuth: degrees from -360 to 720"),
     (b"point 235 211", "'211' is no elevation: degrees from -90 to 210"),
     (b"point 2x5 25", "'2x5' is no azimuth: degrees from -360 to 720"),
@@ -127,7 +128,7 @@ MISTAKES = [
 ]
 
 
-@pytest.mark.parametrize(("line", "said"), CANONICAL)
+@every_row(("line", "said"), CANONICAL)
 def test_reads(line: bytes, said: ConsoleCommand) -> None:
     assert parse(line) == said
 
@@ -136,19 +137,19 @@ def test_every_row_of_the_table_is_read_above() -> None:
     assert {line.split()[0].decode() for line, _ in CANONICAL} == {verb.text for verb in VERBS}
 
 
-@pytest.mark.parametrize(("line", "said"), ALSO)
+@every_row(("line", "said"), ALSO)
 def test_reads_as_well(line: bytes, said: ConsoleCommand) -> None:
     assert parse(line) == said
 
 
-@pytest.mark.parametrize(("line", "order"), [each for each in CANONICAL if isinstance(each[1], Order)])
+@every_row(("line", "order"), [each for each in CANONICAL if isinstance(each[1], Order)])
 def test_an_order_is_handed_on_and_answered(feed: Feed, line: bytes, order: Order) -> None:
     box = Notebook()
     assert feed(ConsoleSession(box), line + b"\n") == [b"ok\n"]
     assert box.orders == [order]
 
 
-@pytest.mark.parametrize(("line", "hand"), [each for each in CANONICAL if isinstance(each[1], Hand)])
+@every_row(("line", "hand"), [each for each in CANONICAL if isinstance(each[1], Hand)])
 def test_a_hand_moves_the_panel_and_no_antenna(feed: Feed, line: bytes, hand: Hand) -> None:
     box, moved = Notebook(), []
 
@@ -163,8 +164,9 @@ def test_a_hand_moves_the_panel_and_no_antenna(feed: Feed, line: bytes, hand: Ha
     assert ConsoleSession(box).receive(line + b"\n") == [b"error: there is no simulated panel\n"]
 
 
-@pytest.mark.parametrize(("line", "why"), MISTAKES)
-def test_a_mistake_is_explained_and_moves_nothing(box: BenchBox, feed: Feed, line: bytes, why: str) -> None:
+@every_row(("line", "why"), MISTAKES)
+def test_a_mistake_is_explained_and_moves_nothing(new_box: type[BenchBox], feed: Feed, line: bytes, why: str) -> None:
+    box = new_box(at=(235, 25))
     assert feed(ConsoleSession(box), line + b"\r\n") == [f"error: {why}\n".encode()]
     assert box.orders == []
 
@@ -234,8 +236,8 @@ def test_a_jog_against_an_end_of_the_range_is_refused_with_the_reason(
     assert box.orders == []
 
 
-@pytest.mark.parametrize("line", [b"jog cw 1", b"jog up 1", b"pulse cw", b"pulse up"])
-@pytest.mark.parametrize("missing", [(), (Missing.CALIBRATION,)])
+@every_row("line", [b"jog cw 1", b"jog up 1", b"pulse cw", b"pulse up"])
+@every_row("missing", [(), (Missing.CALIBRATION,)])
 def test_from_an_end_of_the_range_it_jogs_the_other_way(
     new_box: type[BenchBox], line: bytes, missing: tuple[Missing, ...]
 ) -> None:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, get_args
 
-import pytest
-
 from hw.ports import Axis
 from rotator.config.links import FOLLOW, ProtocolName
 from rotator.exchange.orders import Order, Stop
@@ -15,6 +13,7 @@ from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.damaged import is_stop
 from rotator.protocols.pstrotator import PstRotatorSession
 from tests.protocols.fed import connected
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -79,42 +78,49 @@ def stopped(orders: list[Order]) -> set[Axis]:
     return {axis for order in orders if isinstance(order, Stop) for axis in order.axes}
 
 
-@pytest.mark.parametrize(("protocol", "said"), [(name, each) for name, rows in DAMAGED.items() for each in rows])
-def test_a_damaged_stop_stops_both_axes_and_moves_nothing(box: BenchBox, protocol: str, said: bytes) -> None:
-    session = connected(protocol, box)
-    session.receive(said)
-    session.finish()
-    assert stopped(box.orders) == set(Axis)
-    assert box.motions == []
+@every_row("protocol", DAMAGED)
+def test_a_damaged_stop_stops_both_axes_and_moves_nothing(new_box: type[BenchBox], protocol: str) -> None:
+    for said in DAMAGED[protocol]:
+        box = new_box(at=(235, 25))
+        session = connected(protocol, box)
+        session.receive(said)
+        session.finish()
+        assert stopped(box.orders) == set(Axis), said
+        assert box.motions == [], said
 
 
-@pytest.mark.parametrize("protocol", ["rotctld", "gs232b", "easycomm2", "rc2800", "lx200", "prosistel-d", "dcu1"])
-def test_a_stop_without_an_end_counts_when_the_connection_ends(box: BenchBox, protocol: str) -> None:
+@every_row("protocol", ["rotctld", "gs232b", "easycomm2", "rc2800", "lx200", "prosistel-d", "dcu1"])
+def test_a_stop_without_an_end_counts_when_the_connection_ends(new_box: type[BenchBox], protocol: str) -> None:
+    box = new_box(at=(235, 25))
     session = connected(protocol, box)
     session.receive({"lx200": b":Q", "prosistel-d": b"\x02XG999", "dcu1": b"AS1"}.get(protocol, b"STOP"))
     session.finish()
     assert stopped(box.orders) == set(Axis)
 
 
-@pytest.mark.parametrize(("protocol", "said"), [(name, each) for name, rows in OTHERS.items() for each in rows])
-def test_no_other_command_is_taken_for_a_stop(box: BenchBox, protocol: str, said: bytes) -> None:
-    connected(protocol, box).receive(said)
-    assert stopped(box.orders) == set()
+@every_row("protocol", OTHERS)
+def test_no_other_command_is_taken_for_a_stop(new_box: type[BenchBox], protocol: str) -> None:
+    for said in OTHERS[protocol]:
+        box = new_box(at=(235, 25))
+        connected(protocol, box).receive(said)
+        assert stopped(box.orders) == set(), said
 
 
 def test_none_is_left_out() -> None:
     assert {*DAMAGED, *NO_STOP} == set(get_args(ProtocolName))
 
 
-@pytest.mark.parametrize("line", [b"stop", b"STOP!", b"stop;", b"stpo", b"stopp", b"xx stop", b"s", b"sto",
+@every_row("line", [b"stop", b"STOP!", b"stop;", b"stpo", b"stopp", b"xx stop", b"s", b"sto",
                                   b"stop" + b" " * 500])  # fmt: skip
-def test_at_the_console_too(box: BenchBox, line: bytes) -> None:
+def test_at_the_console_too(new_box: type[BenchBox], line: bytes) -> None:
+    box = new_box(at=(235, 25))
     assert ConsoleSession(box).receive(line + b"\n") == [b"ok\n"]
     assert box.orders == [Stop(latch=True)]
 
 
-@pytest.mark.parametrize("line", [b"status", b"statsu", b"sky", b"setup", b"help", b"park stop", b"resume"])
-def test_nor_at_the_console_is_another_word_one(box: BenchBox, line: bytes) -> None:
+@every_row("line", [b"status", b"statsu", b"sky", b"setup", b"help", b"park stop", b"resume"])
+def test_nor_at_the_console_is_another_word_one(new_box: type[BenchBox], line: bytes) -> None:
+    box = new_box(at=(235, 25))
     ConsoleSession(box).receive(line + b"\n")
     assert stopped(box.orders) == set()
 
@@ -127,6 +133,6 @@ def test_a_datagram_too_long_is_dropped_but_for_a_stop(box: BenchBox) -> None:
     assert stopped(box.orders) == set(Axis)
 
 
-@pytest.mark.parametrize("said", [b"KEEPALIVE", b"SET_POS 180 45", b"S235 025", b"AS1", b"", b"\xdf"])
+@every_row("said", [b"KEEPALIVE", b"SET_POS 180 45", b"S235 025", b"AS1", b"", b"\xdf"])
 def test_the_rule_itself(said: bytes) -> None:
     assert not is_stop(said)

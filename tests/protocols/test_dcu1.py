@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import pytest
-
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.dcu1 import VERBS, Dcu1Session, azimuth_reply, tenths_reply
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -67,14 +66,14 @@ def test_every_row_of_the_table_is_tried_above() -> None:
     assert [verb.text for verb in VERBS if not any(command[:3] == verb.text.encode() for command in said)] == []
 
 
-@pytest.mark.parametrize(("sent", "replies", "orders"), ROWS)
-def test_each_line(new_box: type[BenchBox], feed: Feed, sent: bytes, replies: list[bytes], orders: list[Order]) -> None:
-    box = new_box(at=(235, 25))
-    assert feed(Dcu1Session(box), sent) == replies
-    assert box.orders == orders
+def test_each_line(new_box: type[BenchBox], feed: Feed) -> None:
+    for sent, replies, orders in ROWS:
+        box = new_box(at=(235, 25))
+        assert feed(Dcu1Session(box), sent) == replies, sent
+        assert box.orders == orders, sent
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("wire", "orders"),
     [
         # 401 Rotor-EZ and 402 RotorCard
@@ -87,7 +86,10 @@ def test_each_line(new_box: type[BenchBox], feed: Feed, sent: bytes, replies: li
         ([(b"AP1123.0\r;", []), (b"BI1;", [TENTHS]), (b";", [])], [Aim(123, None), Stop()]),
     ],
 )
-def test_hamlib(box: BenchBox, feed: Feed, wire: list[tuple[bytes, list[bytes]]], orders: list[Order]) -> None:
+def test_hamlib(
+    new_box: type[BenchBox], feed: Feed, wire: list[tuple[bytes, list[bytes]]], orders: list[Order]
+) -> None:
+    box = new_box(at=(235, 25))
     session = Dcu1Session(box)
     for sent, replies in wire:
         assert feed(session, sent) == replies
@@ -102,7 +104,7 @@ def test_a_semicolon_that_comes_later_is_a_stop(box: BenchBox) -> None:
     assert box.orders == [Aim(123.4, None), Stop()]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "whole", "tenths"),
     [
         (235.04, b";235", b"235.0;"),

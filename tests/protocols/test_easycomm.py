@@ -6,9 +6,10 @@ import pytest
 
 from rotator.protocols import easycomm
 from rotator.protocols.easycomm import VERBS, Level, Word, is_whole, parse
+from tests.tables import every_row
 
 
-@pytest.mark.parametrize(
+@every_row(
     "line",
     [
         b"AZ235.5 EL25.0",
@@ -41,17 +42,17 @@ from rotator.protocols.easycomm import VERBS, Level, Word, is_whole, parse
         b"UP145900000 UMFM DN435800000 DMFM DR1 UR2 AZ235.5 EL25.0 AO ST26:11:21:18:00:00 OP1 IP1 AN2",
     ],
 )
-@pytest.mark.parametrize("level", Level)
+@every_row("level", Level)
 def test_however_it_is_written(line: bytes, level: Level) -> None:
     assert {word.verb: word.value for word in parse(line, level)} == {"AZ": 235.5, "EL": 25.0}
 
 
-@pytest.mark.parametrize(("text", "value"), [(b".5", 0.5), (b"-.5", -0.5), (b",5", 0.5), (b"5", 5.0), (b"0", 0.0)])
+@every_row(("text", "value"), [(b".5", 0.5), (b"-.5", -0.5), (b",5", 0.5), (b"5", 5.0), (b"0", 0.0)])
 def test_visual_basics_numbers(text: bytes, value: float) -> None:
     assert parse(b"EL" + text, Level.I) == (Word("EL", value),)
 
 
-@pytest.mark.parametrize(
+@every_row(
     "line",
     [b"AZ1x0 EL20.0", b"AZ1 20.5 EL20.0", b"AZ1 20.5EL20.0", b"AZ235.5 EL2\xff.0", b"AZ2\xff35.5 EL25.0", b"AZ235.5 EL",
      b"AZ235.5 E", b"AZ235.5EL EL25.0", b"AZ235.5 L25.0", b"AZ235.5 EX25.0", b"Z235.5 EL25.0", b"5.5 EL25.0",
@@ -64,7 +65,7 @@ def test_a_damaged_line_is_good_for_its_stops_only(line: bytes) -> None:
     assert parse(line + b" SA SE", Level.III) == (Word("SA"), Word("SE"))
 
 
-@pytest.mark.parametrize("line", [b"", b" ", b";", b"XX", b"UP145900000", b"PARKED", b"MRx", b"VR", b"VR-5"])
+@every_row("line", [b"", b" ", b";", b"XX", b"UP145900000", b"PARKED", b"MRx", b"VR", b"VR-5"])
 def test_what_is_not_for_a_rotor_is_passed_over(line: bytes) -> None:
     assert parse(line, Level.III) == ()
 
@@ -82,9 +83,7 @@ def test_each_level_has_the_commands_of_those_below(level: Level, known: set[str
     assert {word.verb for word in parse(line, level)} == known
 
 
-@pytest.mark.parametrize(
-    "line", [b"DELTA 12", b"HAZEL", b"HAZEL 3.5 DELTA4", b"HAZEL5", b"AaAZ0", b"XAZ1.5 YEL2.5", b"AZ5 HAZEL5"]
-)
+@every_row("line", [b"DELTA 12", b"HAZEL", b"HAZEL 3.5 DELTA4", b"HAZEL5", b"AaAZ0", b"XAZ1.5 YEL2.5", b"AZ5 HAZEL5"])
 def test_letters_within_a_word_are_no_angle(line: bytes) -> None:
     assert parse(line, Level.III) == ()
 
@@ -93,7 +92,7 @@ def test_a_satellites_name_changes_no_pair() -> None:
     assert parse(b"AZ235.5 EL25.0 HAZEL5", Level.II) == (Word("AZ", 235.5), Word("EL", 25.0))
 
 
-@pytest.mark.parametrize("line", [b"UP145AZ5.5", b"AZ5.5DN435", b"VR5AZ5.5", b"#AZ5.5", b"AZ5.5UP1 MR", b"AZ5.5\x00"])
+@every_row("line", [b"UP145AZ5.5", b"AZ5.5DN435", b"VR5AZ5.5", b"#AZ5.5", b"AZ5.5UP1 MR", b"AZ5.5\x00"])
 def test_a_single_angle_that_is_joined_to_something_moves_nothing(line: bytes) -> None:
     assert parse(line, Level.III) == ()
     assert parse(line + b" SA SE", Level.III) == (Word("SA"), Word("SE"))
@@ -111,21 +110,21 @@ def test_a_byte_that_is_lost_or_wrong_or_one_too_many_never_leaves_half_of_a_pai
                 assert {word.verb for word in parse(damaged, Level.III)} in (set(), {"AZ", "EL"}), damaged
 
 
-@pytest.mark.parametrize(
+@every_row(
     "begun", [b"AZ235.5 EL25.0", b"EL25.0 AZ235.5 ", b"AZ114.8 EL9.05", b"AZ1.0EL2.0", b"AZ235.5", b"EL-5.0", b"az45.0"]
 )
 def test_whole_without_an_end(begun: bytes) -> None:
     assert is_whole(begun)
 
 
-@pytest.mark.parametrize(
+@every_row(
     "begun", [b"", b"AZ", b"AZ2", b"AZ235", b"AZ235.", b"AZ235.5 EL", b"AZ235.5 EL2", b"AZ EL", b"PARK", b"xAZ1.0"]
 )
 def test_only_begun(begun: bytes) -> None:
     assert not is_whole(begun)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "elevation_deg", "reply"),
     [
         (235.55, 25.04, b"AZ235.6 EL25.0\n"),

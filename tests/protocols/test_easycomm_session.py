@@ -14,6 +14,7 @@ from rotator.exchange.orders import Aim, Jog, Order, Park, Stop
 from rotator.protocols.easycomm import VERBS, Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -67,7 +68,7 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
 ]
 
 
-@pytest.mark.parametrize(("line", "replies", "orders"), ROWS)
+@every_row(("line", "replies", "orders"), ROWS)
 def test_each_line(new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order]) -> None:
     whole = [line + end for end in (b"\n", b"\r", b"\r\n")]
     for pieces in [[each] for each in whole] + [[bytes([byte]) for byte in each] for each in whole]:
@@ -99,7 +100,7 @@ CONFIGURED = [
 ]
 
 
-@pytest.mark.parametrize("wire", [UNTIL_4_5, SINCE_4_6, CONFIGURED], ids=["until 4.5", "since 4.6", "a C program"])
+@every_row("wire", [UNTIL_4_5, SINCE_4_6, CONFIGURED])
 def test_hamlib(new_box: type[BenchBox], feed: Feed, wire: list[tuple[bytes, list[bytes]]]) -> None:
     box = new_box(at=(235, 25), at_once=False)
     session = EasycommSession(box, Level.III)

@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import pytest
-
 from rotator.assembly.sessions import session_maker
 from tests.assembly.test_links import DIALOGUES, PLACES, SKY, link
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -31,12 +30,12 @@ def by_a_terminal(reply: bytes) -> bytes:
     return reply.replace(b"\r", b"\n").replace(b"\n", b"\r\n")
 
 
-@pytest.mark.parametrize("echo", [as_sent, by_a_terminal])
-@pytest.mark.parametrize("said", [b"", b"nonsense\r", b"\r", b"H\rH2\rH3\r", b"p\n_\n\\dump_caps\n"])
-@pytest.mark.parametrize(("keys", "asked"), ON_A_PORT)
-def test_an_echo_dies_away(box: BenchBox, keys: str, asked: bytes, said: bytes, echo: Callable[[bytes], bytes]) -> None:
-    session = session_maker(link(keys), box, sky=SKY)
-    replies = session.receive(said or asked)
-    for _ in range(SOON):
-        replies = session.receive(b"".join(map(echo, replies)))
-    assert replies == []
+@every_row("echo", [as_sent, by_a_terminal])
+@every_row(("keys", "asked"), ON_A_PORT)
+def test_an_echo_dies_away(new_box: type[BenchBox], keys: str, asked: bytes, echo: Callable[[bytes], bytes]) -> None:
+    for said in (asked, b"nonsense\r", b"\r", b"H\rH2\rH3\r", b"p\n_\n\\dump_caps\n"):
+        session = session_maker(link(keys), sky=SKY)(new_box(at=(235, 25)))
+        replies = session.receive(said)
+        for _ in range(SOON):
+            replies = session.receive(b"".join(map(echo, replies)))
+        assert replies == [], said

@@ -18,6 +18,7 @@ from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
 from tests.boxes import free_port
 from tests.protocols.fed import connected
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -42,8 +43,9 @@ def test_a_whole_pair_counts(box: BenchBox, protocol: str, said: bytes) -> None:
     assert box.orders == [Aim(180, 45)]
 
 
-@pytest.mark.parametrize(("protocol", "said"), HALF)
-def test_half_a_pair_does_not(box: BenchBox, protocol: str, said: bytes) -> None:
+@every_row(("protocol", "said"), HALF)
+def test_half_a_pair_does_not(new_box: type[BenchBox], protocol: str, said: bytes) -> None:
+    box = new_box(at=(235, 25))
     session = connected(protocol, box)
     session.receive(said)
     session.finish()
@@ -69,7 +71,7 @@ def test_a_program_that_hangs_up_at_once_gets_its_answer(box: BenchBox) -> None:
     assert box.orders == [Aim(180, 45)]
 
 
-@pytest.mark.parametrize("line", [b"XW180 045", b"AOS w180045", b"W12 W180 045", b"W100 020W180 045 ;", b"? W 180 045"])
+@every_row("line", [b"XW180 045", b"AOS w180045", b"W12 W180 045", b"W100 020W180 045 ;", b"? W 180 045"])
 def test_w_anywhere_in_a_line(new_box: type[BenchBox], line: bytes) -> None:
     lenient, strict = new_box(), new_box()
     assert Gs232Session(lenient, Dialect.A).receive(line + b"\r") == []
@@ -79,7 +81,8 @@ def test_w_anywhere_in_a_line(new_box: type[BenchBox], line: bytes) -> None:
     assert strict.refused == [line]
 
 
-@pytest.mark.parametrize("line", [b"XW180 45", b"XW180 04x", b"XW180 045x", b"XW1800 045", b"XM180", b"XW180 045 7"])
-def test_but_not_what_may_be_damaged(box: BenchBox, line: bytes) -> None:
+@every_row("line", [b"XW180 45", b"XW180 04x", b"XW180 045x", b"XW1800 045", b"XM180", b"XW180 045 7"])
+def test_but_not_what_may_be_damaged(new_box: type[BenchBox], line: bytes) -> None:
+    box = new_box(at=(235, 25))
     assert Gs232Session(box, Dialect.B).receive(line + b"\r") == [b"?>\r\n"]
     assert box.orders == []

@@ -127,6 +127,7 @@ def test_what_silence_has_cut_off_is_not_put_together_again(box: BenchBox, sessi
     assert box.orders == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", [b"W100 000\r", b"W100 -01\r", b"W100 -5\r", b"W100 -90\r"])
 def test_at_zero_or_negative_elevation_both_motors_stop(box: BenchBox, session: F1efwSession, order: bytes) -> None:
     session.receive(b"W300 090\r")
@@ -153,7 +154,7 @@ def test_an_uncommissioned_box_ignores_it_without_a_word(new_box: type[BenchBox]
 def test_memory_is_bounded(session: F1efwSession, junk: bytes) -> None:
     session.receive(junk * 1000)
     tracemalloc.start()
-    for _ in range(100):
+    for _ in range(10):
         session.receive(junk * 1000)
     kept, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from rotator.protocols import gs232
 from rotator.protocols.gs232 import VERBS, Command, Dialect, NoOrder, NotACommand, encode, parse
 from tests.search import examples
+from tests.tables import every_row
 
 A_COMMANDS = [*"RLACMTN", "X1", "X2", "X3", "X4", *"SOFH", *"UDEB", "C2", "W", "O2", "F2", "H2"]
 B_COMMANDS = ["P45", "P36", "Z", "H3"]
@@ -149,14 +150,14 @@ def test_the_manuals_commands_are_all_here_and_no_others() -> None:
     assert [verb.text for verb in VERBS if verb.only_b] == B_COMMANDS
 
 
-@pytest.mark.parametrize(("line", "command"), CANONICAL)
+@every_row(("line", "command"), CANONICAL)
 def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, command: Command) -> None:
     assert parse(line[:-1], Dialect.B) == command
     assert encode(command) == line
     assert parse(line[:-1].lower(), Dialect.B) == command
 
 
-@pytest.mark.parametrize(("line", "command"), CANONICAL)
+@every_row(("line", "command"), CANONICAL)
 def test_a_gs232a_knows_all_but_four(line: bytes, command: Command) -> None:
     if command.verb in B_COMMANDS:
         with pytest.raises(NotACommand):
@@ -165,30 +166,30 @@ def test_a_gs232a_knows_all_but_four(line: bytes, command: Command) -> None:
         assert parse(line[:-1], Dialect.A) == command
 
 
-@pytest.mark.parametrize("line", W_235_25)
-@pytest.mark.parametrize("dialect", Dialect)
+@every_row("line", W_235_25)
+@every_row("dialect", Dialect)
 def test_every_spelling_of_one_order(line: bytes, dialect: Dialect) -> None:
     assert parse(line, dialect) == Command("W", 235, 25)
 
 
-@pytest.mark.parametrize(("line", "command"), OTHER_SPELLINGS)
+@every_row(("line", "command"), OTHER_SPELLINGS)
 def test_other_spellings(line: bytes, command: Command) -> None:
     assert parse(line, Dialect.B) == command
 
 
-@pytest.mark.parametrize("line", NOTHING)
+@every_row("line", NOTHING)
 def test_a_line_with_nothing_in_it_is_no_command_and_no_mistake(line: bytes) -> None:
     assert parse(line, Dialect.B) is None
 
 
-@pytest.mark.parametrize("line", NO_COMMAND)
+@every_row("line", NO_COMMAND)
 def test_what_is_no_command(line: bytes) -> None:
     with pytest.raises(NotACommand) as mistake:
         parse(line, Dialect.B)
     assert mistake.type is NotACommand
 
 
-@pytest.mark.parametrize("line", NO_ORDER)
+@every_row("line", NO_ORDER)
 def test_an_m_or_w_that_is_no_order(line: bytes) -> None:
     with pytest.raises(NoOrder):
         parse(line, Dialect.B)
@@ -199,7 +200,7 @@ def test_no_damage_but_a_digit_makes_a_stop_something_else(rest: bytes, letter: 
     assert parse(bytes([letter]) + rest, Dialect.B) == Command("S")
 
 
-@pytest.mark.parametrize("at", range(1, 8))
+@every_row("at", range(1, 8))
 def test_a_damaged_byte_never_makes_another_order(at: int) -> None:
     """But for a digit that turns into a blank, a point or a comma: that is how others write other angles."""
     for damage in set(range(256)) - set(b"0123456789 \t.,"):
@@ -234,7 +235,7 @@ def test_any_order_in_whole_degrees_survives_the_wire(interval_s: int, points: l
         assert parse(encode(command).removesuffix(b"\r"), Dialect.A) == command
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "elevation_deg", "a", "b"),
     [
         (235, 25, b"+0235+0025\r\n", b"AZ=235  EL=025\r\n"),
@@ -271,7 +272,7 @@ MANUAL_LISTS = {
 TITLES = {1: "COMMAND LIST 1", 2: "HELP COMMAND 2", 3: "HELP COMMAND 3"}
 
 
-@pytest.mark.parametrize(("which", "commands"), MANUAL_LISTS.items())
+@every_row(("which", "commands"), MANUAL_LISTS.items())
 def test_the_help_lists_have_the_manuals_titles_commands_and_order(
     which: tuple[Dialect, int], commands: list[str]
 ) -> None:

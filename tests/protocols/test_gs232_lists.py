@@ -114,6 +114,7 @@ CLEARING = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("load", [b"M005 100 120 140\rT\r", b"W005 100 020 120 030 140 040\rT\r"])
 @pytest.mark.parametrize(("line", "replies"), CLEARING.items())
 def test_any_new_m_or_w_forgets_the_list(

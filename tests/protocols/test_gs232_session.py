@@ -18,6 +18,7 @@ from rotator.exchange.sources import Source
 from rotator.protocols.gs232 import MAX_LINE, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -82,15 +83,15 @@ def session(box: BenchBox) -> Gs232Session:
     return Gs232Session(box, Dialect.B)
 
 
-@pytest.mark.parametrize("row", ROWS)
-def test_each_command(new_box: type[BenchBox], feed: Feed, row: Row) -> None:
-    for end in ENDS:
+@every_row("end", ENDS)
+def test_each_command(new_box: type[BenchBox], feed: Feed, end: bytes) -> None:
+    for line, replies, orders in ROWS:
         box = new_box(at=(235, 25))
         session = Gs232Session(box, Dialect.B)
-        assert feed(session, row.line) == [], "nothing happens before the line ends"
+        assert feed(session, line) == [], "nothing happens before the line ends"
         assert box.orders == []
-        assert feed(session, end) == row.replies
-        assert box.orders == row.orders
+        assert feed(session, end) == replies, line
+        assert box.orders == orders, line
 
 
 @pytest.mark.parametrize("end", ENDS)
@@ -99,12 +100,13 @@ def test_all_commands_in_one_packet(box: BenchBox, session: Gs232Session, feed: 
     assert box.orders == [order for row in ROWS for order in row.orders]
 
 
-@pytest.mark.parametrize("row", ROWS)
-def test_noise_before_and_after(box: BenchBox, session: Gs232Session, feed: Feed, row: Row) -> None:
+def test_noise_before_and_after(new_box: type[BenchBox], feed: Feed) -> None:
     """A port being plugged in; then another program's banner; afterwards a command that was cut off."""
-    sent = b"\0\xff\x80\xfe" + row.line + b"\rREADY\r" + row.line + b"\rW10"
-    assert feed(session, sent) == [*row.replies, WRONG, *row.replies]
-    assert box.orders == row.orders * 2
+    for line, replies, orders in ROWS:
+        box = new_box(at=(235, 25))
+        sent = b"\0\xff\x80\xfe" + line + b"\rREADY\r" + line + b"\rW10"
+        assert feed(Gs232Session(box, Dialect.B), sent) == [*replies, WRONG, *replies], line
+        assert box.orders == orders * 2, line
 
 
 def test_a_line_too_long_is_one_mistake_and_the_next_is_good(box: BenchBox, session: Gs232Session, feed: Feed) -> None:

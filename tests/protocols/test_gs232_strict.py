@@ -15,6 +15,7 @@ from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Calibrate, Order, Stop
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -27,9 +28,10 @@ def strict(box: BenchBox) -> Gs232Session:
     return Gs232Session(box, Dialect.B, ack=b"\r", empty_line=WRONG, strict=True, may_calibrate=True)
 
 
-@pytest.mark.parametrize("dialect", Dialect)
-@pytest.mark.parametrize("line", [b"", b"  ", b"\0", b"\xff", b";"])
-def test_an_empty_line_is_a_mistake_where_asked_for(box: BenchBox, dialect: Dialect, line: bytes) -> None:
+@every_row("dialect", Dialect)
+@every_row("line", [b"", b"  ", b"\0", b"\xff", b";"])
+def test_an_empty_line_is_a_mistake_where_asked_for(new_box: type[BenchBox], dialect: Dialect, line: bytes) -> None:
+    box = new_box(at=(235, 25))
     session = Gs232Session(box, dialect, empty_line=WRONG)
     assert session.receive(line + b"\n" + line + b"\n") == [WRONG, WRONG]
     assert session.receive(line + b"\r" + line + b"\r") == [WRONG, WRONG]

@@ -11,13 +11,12 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import pytest
-
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Jog, Order, Speed, Stop
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -106,16 +105,22 @@ TRANSCRIPTS_B: dict[str, Transcript] = {
 }
 
 
-@pytest.mark.parametrize(("wire", "orders"), TRANSCRIPTS_A.values(), ids=TRANSCRIPTS_A)
-def test_with_a_gs232a(box: BenchBox, feed: Feed, wire: list[tuple[bytes, list[bytes]]], orders: list[Order]) -> None:
+@every_row(("wire", "orders"), TRANSCRIPTS_A.values())
+def test_with_a_gs232a(
+    new_box: type[BenchBox], feed: Feed, wire: list[tuple[bytes, list[bytes]]], orders: list[Order]
+) -> None:
+    box = new_box(at=(235, 25))
     session = Gs232Session(box, Dialect.A)
     for sent, replies in wire:
         assert feed(session, sent) == replies
     assert box.orders == orders
 
 
-@pytest.mark.parametrize(("wire", "orders"), TRANSCRIPTS_B.values(), ids=TRANSCRIPTS_B)
-def test_with_a_gs232b(box: BenchBox, feed: Feed, wire: list[tuple[bytes, list[bytes]]], orders: list[Order]) -> None:
+@every_row(("wire", "orders"), TRANSCRIPTS_B.values())
+def test_with_a_gs232b(
+    new_box: type[BenchBox], feed: Feed, wire: list[tuple[bytes, list[bytes]]], orders: list[Order]
+) -> None:
+    box = new_box(at=(235, 25))
     session = Gs232Session(box, Dialect.B)
     for sent, replies in wire:
         assert feed(session, sent) == replies
@@ -132,11 +137,12 @@ HEARD_BY = {
 }
 
 
-@pytest.mark.parametrize(("dialect", "understood"), HEARD_BY.values(), ids=HEARD_BY)
-@pytest.mark.parametrize(("azimuth_deg", "elevation_deg"), [(0, 0), (5, 7), (235.4, 24.6), (359.6, 90), (450, 180)])
+@every_row(("dialect", "understood"), HEARD_BY.values())
+@every_row(("azimuth_deg", "elevation_deg"), [(0, 0), (5, 7), (235.4, 24.6), (359.6, 90), (450, 180)])
 def test_each_program_understands_the_position(
-    box: BenchBox, dialect: Dialect, understood: bytes, azimuth_deg: float, elevation_deg: float
+    new_box: type[BenchBox], dialect: Dialect, understood: bytes, azimuth_deg: float, elevation_deg: float
 ) -> None:
+    box = new_box(at=(235, 25))
     box.stands_at(azimuth_deg, elevation_deg)
     (reply,) = Gs232Session(box, dialect).receive(b"C2\r")
     heard = re.fullmatch(understood, reply, re.DOTALL)

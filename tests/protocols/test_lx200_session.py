@@ -17,6 +17,7 @@ from rotator.orbits.earth import Site
 from rotator.protocols import lx200
 from rotator.protocols.lx200_session import Lx200Session
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -90,7 +91,7 @@ def test_any_order_of_its_own_ends_the_following(box: BenchBox, end: bytes) -> N
     assert box.orders == orders
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("said", "order"),
     [
         (b":Mn#", Jog(Axis.ELEVATION, Direction.PLUS)),
@@ -104,17 +105,19 @@ def test_any_order_of_its_own_ends_the_following(box: BenchBox, end: bytes) -> N
         (b":hP#", Park()),
     ],
 )
-def test_orders(box: BenchBox, said: bytes, order: Order) -> None:
+def test_orders(new_box: type[BenchBox], said: bytes, order: Order) -> None:
+    box = new_box(at=(235, 25))
     assert Lx200Session(box, SKY).receive(said) == []
     assert box.orders == [order]
 
 
-@pytest.mark.parametrize(
+@every_row(
     "said",
     [b":MS#", b":Sr 12:00:00#:MS#", b":Sr 12:00:00#:Sd +8x*00#:MS#", b":Sd +80*00#:Sr 12:0x:00#:MS#",
      b":Sz 100*00#:MA#", b":Sz 400*00#:Sa +20*00#:MA#", b":Sz 100*00#:Sd +20*00#:MA#"],
 )  # fmt: skip
-def test_half_a_target_is_no_target(box: BenchBox, said: bytes) -> None:
+def test_half_a_target_is_no_target(new_box: type[BenchBox], said: bytes) -> None:
+    box = new_box(at=(235, 25))
     assert Lx200Session(box, SKY).receive(said)[-1] in (b"1", b"2No target#")
     assert box.orders == []
 

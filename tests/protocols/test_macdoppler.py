@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import pytest
-
 from rotator.exchange.orders import Aim, Order
 from rotator.protocols.macdoppler import MacDopplerSession, SatelliteReport, parse
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -42,8 +41,9 @@ def test_a_report_names_its_satellite() -> None:
     assert parse(REPORT) == SatelliteReport(39.0, 0.0, "XW-2C")
 
 
-@pytest.mark.parametrize(("sent", "orders"), ROWS)
-def test_each_datagram(box: BenchBox, sent: bytes, orders: list[Order]) -> None:
+@every_row(("sent", "orders"), ROWS)
+def test_each_datagram(new_box: type[BenchBox], sent: bytes, orders: list[Order]) -> None:
+    box = new_box(at=(235, 25))
     assert MacDopplerSession(box).receive(sent) == []
     assert box.orders == orders
 

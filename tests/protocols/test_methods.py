@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from rotator.protocols.console import VERBS, parse
 from rotator.protocols.methods import METHODS, Method, WrongValuesError
+from tests.tables import every_row
 
 BY_NAME = {method.name: method for method in METHODS}
 ON_THE_CONSOLE_ALONE = {"status", "panel", "pair", "help", "table", "track-table"}
@@ -34,7 +35,7 @@ SAME = [
 ]
 
 
-@pytest.mark.parametrize(("line", "name", "values"), SAME)
+@every_row(("line", "name", "values"), SAME)
 def test_a_method_is_the_console_s_command_of_that_name(line: bytes, name: str, values: dict[str, object]) -> None:
     assert BY_NAME[name].command(values) == parse(line)
 
@@ -63,7 +64,7 @@ def test_any_values_make_a_command_or_a_sentence(method: Method, values: dict[st
     assert said.isprintable()
 
 
-@pytest.mark.parametrize("angle_deg", [math.nan, math.inf, -math.inf, 1e300, 10**400, "90", None, True, [90]])
+@every_row("angle_deg", [math.nan, math.inf, -math.inf, 1e300, 10**400, "90", None, True, [90]])
 def test_what_is_no_angle_of_a_rotor_makes_no_order(angle_deg: object) -> None:
     for name, other in (("azimuth_deg", "elevation_deg"), ("elevation_deg", "azimuth_deg")):
         with pytest.raises(WrongValuesError, match=name):

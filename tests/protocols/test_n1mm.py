@@ -9,6 +9,7 @@ import pytest
 
 from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.n1mm import Go, Halt, N1mmReport, N1mmSession, parse
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -60,9 +61,10 @@ def test_names(rotor: str) -> None:
     assert parse(HALT.replace(b"G-5500", written)) == Halt(rotor)
 
 
-@pytest.mark.parametrize(("sent", "orders"), ROWS)
-@pytest.mark.parametrize("rotor_name", [None, "G-5500"])
-def test_each_datagram(box: BenchBox, rotor_name: str | None, sent: bytes, orders: list[Order]) -> None:
+@every_row(("sent", "orders"), ROWS)
+@every_row("rotor_name", [None, "G-5500"])
+def test_each_datagram(new_box: type[BenchBox], rotor_name: str | None, sent: bytes, orders: list[Order]) -> None:
+    box = new_box(at=(235, 25))
     assert N1mmSession(box, rotor_name).receive(sent) == []
     assert box.orders == orders
 
@@ -100,7 +102,7 @@ def test_an_offset_is_not_added_and_remarked(box: BenchBox) -> None:
 # --- the status line
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "said"),
     [
         (36, b"G-5500 @ 360"),

@@ -26,6 +26,7 @@ from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
 from tests.search import examples
 from tests.spelled import NO_NUMBERS, spelled
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -65,8 +66,9 @@ def aimed(box: BenchBox, session: Session, said: str) -> tuple[float | None, flo
     return azimuth_deg, elevation_deg
 
 
-@pytest.mark.parametrize("name", SESSIONS)
-def test_each_link_reads_every_spelling(box: BenchBox, name: str) -> None:
+@every_row("name", SESSIONS)
+def test_each_link_reads_every_spelling(new_box: type[BenchBox], name: str) -> None:
+    box = new_box(at=(235, 25))
     make, form = SESSIONS[name]
     session, seed = make(box), random.randrange(10**9)
     print(f"seed {seed}")  # noqa: T201
@@ -89,23 +91,24 @@ def test_so_does_each_with_one_bearing(box: BenchBox, name: str) -> None:
         assert aimed(box, make(box), form.format(azimuth)) == (az_deg, None), azimuth
 
 
-@pytest.mark.parametrize("name", DIGITS_AT_FIRST)
-@pytest.mark.parametrize(
-    "text", ["45", "045", "0045", "45.0", "45.", "4.5e+01", "4.5e1", "450e-1", "45.000000000000000001"]
-)
-def test_a_controller_of_whole_degrees_reads_what_no_damage_makes(box: BenchBox, name: str, text: str) -> None:
+@every_row("name", DIGITS_AT_FIRST)
+@every_row("text", ["45", "045", "0045", "45.0", "45.", "4.5e+01", "4.5e1", "450e-1", "45.000000000000000001"])
+def test_a_controller_of_whole_degrees_reads_what_no_damage_makes(
+    new_box: type[BenchBox], name: str, text: str
+) -> None:
+    box = new_box(at=(235, 25))
     make, form = DIGITS_AT_FIRST[name]
     assert aimed(box, make(box), form.format(text, text)) == (45.0, 45.0)
 
 
-@pytest.mark.parametrize("text", NO_NUMBERS)
-@pytest.mark.parametrize("name", ALL)
-def test_what_is_no_number_moves_nothing_and_is_in_the_log(box: BenchBox, name: str, text: str) -> None:
+@every_row("name", ALL)
+def test_what_is_no_number_moves_nothing_and_is_in_the_log(new_box: type[BenchBox], name: str) -> None:
     make, form = ALL[name]
-    session = make(box)
-    said = form.format(text, "45") if form.count("{}") == 2 else form.format(text)
-    if name == "rc2800":
-        said = said.partition("\r")[0] + "\r"
-    session.receive(said.encode())
-    assert box.motions == []
-    assert len(box.refused) == 1
+    for text in NO_NUMBERS:
+        box = new_box(at=(235, 25))
+        said = form.format(text, "45") if form.count("{}") == 2 else form.format(text)
+        if name == "rc2800":
+            said = said.partition("\r")[0] + "\r"
+        make(box).receive(said.encode())
+        assert box.motions == [], text
+        assert len(box.refused) == 1, text

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import pytest
-
 from rotator.exchange.orders import Aim
 from tests.protocols.fed import connected
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -28,7 +27,7 @@ BEYOND = [
 ]
 
 
-@pytest.mark.parametrize(("protocol", "said", "angles"), BEYOND)
+@every_row(("protocol", "said", "angles"), BEYOND)
 def test_it_goes_there(
     new_box: type[BenchBox], protocol: str, said: bytes, angles: tuple[float | None, float | None]
 ) -> None:
@@ -42,9 +41,8 @@ def test_it_goes_there(
         assert angle_deg in (None, axis.target_deg)
 
 
-@pytest.mark.parametrize(
-    ("protocol", "said"), [(name, said) for name, said, angles in BEYOND if (angles[1] or 0) > 180]
-)
-def test_another_rotor_is_not_sent_there(box: BenchBox, protocol: str, said: bytes) -> None:
+@every_row(("protocol", "said"), [(name, said) for name, said, angles in BEYOND if (angles[1] or 0) > 180])
+def test_another_rotor_is_not_sent_there(new_box: type[BenchBox], protocol: str, said: bytes) -> None:
+    box = new_box(at=(235, 25))
     connected(protocol, box).receive(said)
     assert box.orders == []

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import pytest
-
 from hw.ports import Axis
 from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.prosistel import Model, ProsistelSession
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 Feed = Callable[[Session, bytes], list[bytes]]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("model", "said", "answers", "orders"),
     [
         (Model.D, b"\x02A?\r", [b"\x02A,?,235,R\r"], []),
@@ -49,8 +48,9 @@ Feed = Callable[[Session, bytes], list[bytes]]
     ],
 )
 def test_dialogues(  # noqa: PLR0917 - a table
-    box: BenchBox, feed: Feed, model: Model, said: bytes, answers: list[bytes], orders: list[Order]
+    new_box: type[BenchBox], feed: Feed, model: Model, said: bytes, answers: list[bytes], orders: list[Order]
 ) -> None:
+    box = new_box(at=(235, 25))
     assert feed(ProsistelSession(box, model), said) == answers
     assert box.orders == orders
 
@@ -66,11 +66,12 @@ def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
     assert ProsistelSession(new_box(blind=True), Model.COMBI_TRACK).receive(b"\x02B?\r") == [b"\x02B,?,E,00003\r"]
 
 
-@pytest.mark.parametrize(
+@every_row(
     "said",
     [b"AG75\r", b"\x02AG7x\r", b"\x02A G75\r", b"\x02AG-5\r", b"\x02AG\r", b"\x02ag75\r", b"\x02AG75", b"\x02AG75\n",
      b"\x02AG00075\r", b"\x02AG7.5\r", b"\x02\x02\r", b"\x02A\x02G75\r", b"\x02" + b"A" * 100 + b"G75\r"],
 )  # fmt: skip
-def test_damaged_commands_move_nothing(box: BenchBox, said: bytes) -> None:
+def test_damaged_commands_move_nothing(new_box: type[BenchBox], said: bytes) -> None:
+    box = new_box(at=(235, 25))
     ProsistelSession(box, Model.D).receive(said)
     assert box.orders == []

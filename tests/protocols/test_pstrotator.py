@@ -10,6 +10,7 @@ from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Park, Stop
 from rotator.orbits.earth import Site
 from rotator.protocols.pstrotator import TAGS, PstRotatorSession
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -98,8 +99,9 @@ def test_every_row_of_the_table_is_tried_above() -> None:
     assert [tag.text for tag in TAGS if tag.text.encode() not in said] == []
 
 
-@pytest.mark.parametrize(("sent", "replies", "orders"), ROWS)
-def test_each_datagram(box: BenchBox, sent: bytes, replies: list[bytes], orders: list[Order]) -> None:
+@every_row(("sent", "replies", "orders"), ROWS)
+def test_each_datagram(new_box: type[BenchBox], sent: bytes, replies: list[bytes], orders: list[Order]) -> None:
+    box = new_box(at=(235, 25))
     assert PstRotatorSession(box).receive(sent) == replies
     assert box.orders == orders
 
@@ -196,12 +198,13 @@ def test_a_balloon_s_place_is_a_direction(
         assert (aim.azimuth_deg - azimuth_deg + 180) % 360 - 180 == pytest.approx(0, abs=0.1)
 
 
-@pytest.mark.parametrize(
+@every_row(
     "place",
     [b"", b"53.4", b"53.4,13.4", b"53.4,13.4,", b"91,13.4,30000", b"53.4,181,30000", b"53.4,13.4,1e9", b"5x,13.4,30000",
      b"53.4;13.4;30000", b"nan,13.4,30000", b"53.4,13.4,30000,7", b"52.52,13.405,34"],
 )  # fmt: skip
-def test_a_damaged_place_moves_nothing(box: BenchBox, place: bytes) -> None:
+def test_a_damaged_place_moves_nothing(new_box: type[BenchBox], place: bytes) -> None:
+    box = new_box(at=(235, 25))
     PstRotatorSession(box, site=STATION).receive(b"<PST><LLH>" + place + b"</LLH></PST>")
     assert box.orders == []
 

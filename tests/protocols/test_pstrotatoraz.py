@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.pstrotatoraz import MAX_REQUEST, PstRotatorAzSession, encode
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -58,7 +58,7 @@ def test_the_plug_in_turns_the_antenna(box: BenchBox) -> None:
     assert session.receive(NODE_FETCH) == []
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("target", "code", "orders"),
     [
         ("/", 200, []),
@@ -73,13 +73,14 @@ def test_the_plug_in_turns_the_antenna(box: BenchBox) -> None:
         ("/other.htm?az=90", 404, []),
     ],
 )
-def test_requests(box: BenchBox, target: str, code: int, orders: list[Order]) -> None:
+def test_requests(new_box: type[BenchBox], target: str, code: int, orders: list[Order]) -> None:
+    box = new_box(at=(235, 25))
     (answer,) = PstRotatorAzSession(box).receive(encode(target))
     assert status(answer) == code
     assert box.orders == orders
 
 
-@pytest.mark.parametrize(
+@every_row(
     "headers",
     [
         ("Host: 192.168.1.20", "Sec-Fetch-Site: cross-site"),
@@ -93,21 +94,23 @@ def test_requests(box: BenchBox, target: str, code: int, orders: list[Order]) ->
         ("Accept: */*",),
     ],
 )
-def test_another_web_site_turns_nothing(box: BenchBox, headers: tuple[str, ...]) -> None:
+def test_another_web_site_turns_nothing(new_box: type[BenchBox], headers: tuple[str, ...]) -> None:
+    box = new_box(at=(235, 25))
     assert status(get(box, f"GET {PAGE}?az=90 HTTP/1.1", *headers)) == 403
     assert box.orders == []
     assert status(get(box, f"GET {PAGE}?cmd=stop HTTP/1.1", *headers)) == 200
     assert box.orders == [Stop()]
 
 
-@pytest.mark.parametrize("host", ["192.168.1.20:8080", "[fd00::5]:8080", "rotator", "rotator.local", "pi.lan:80"])
-def test_the_box_s_own_names(box: BenchBox, host: str) -> None:
+@every_row("host", ["192.168.1.20:8080", "[fd00::5]:8080", "rotator", "rotator.local", "pi.lan:80"])
+def test_the_box_s_own_names(new_box: type[BenchBox], host: str) -> None:
+    box = new_box(at=(235, 25))
     own = (f"Host: {host}", "Sec-Fetch-Site: same-origin", f"Referer: http://{host}{PAGE}")
     assert status(get(box, f"GET {PAGE}?az=90 HTTP/1.1", *own)) == 200
     assert box.orders == [Aim(90, None)]
 
 
-@pytest.mark.parametrize(
+@every_row(
     "said",
     [
         b"POST /PstRotatorAz.htm?az=90 HTTP/1.1\r\nHost: pi\r\n\r\n",
@@ -121,7 +124,8 @@ def test_the_box_s_own_names(box: BenchBox, host: str) -> None:
         b"x" * (MAX_REQUEST + 1),
     ],
 )
-def test_damaged_requests_turn_nothing(box: BenchBox, said: bytes) -> None:
+def test_damaged_requests_turn_nothing(new_box: type[BenchBox], said: bytes) -> None:
+    box = new_box(at=(235, 25))
     session = PstRotatorAzSession(box)
     (answer,) = session.receive(said)
     assert status(answer) == 400

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import pytest
-
 from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -26,7 +25,7 @@ def read_by_hamlib(reply: bytes) -> tuple[str, float]:
     return text[0], float(text[5:].split()[0])
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("said", "answers", "orders"),
     [
         (b"A\r", [HERE_A], []),
@@ -40,7 +39,8 @@ def read_by_hamlib(reply: bytes) -> tuple[str, float]:
         (b"\xff\x00A\r", [HERE_A], []),
     ],
 )
-def test_dialogues(box: BenchBox, feed: Feed, said: bytes, answers: list[bytes], orders: list[Order]) -> None:
+def test_dialogues(new_box: type[BenchBox], feed: Feed, said: bytes, answers: list[bytes], orders: list[Order]) -> None:
+    box = new_box(at=(235, 25))
     replies = feed(Rc2800Session(box), said)
     assert [reply.replace(b"=9 M", b"=9 S") for reply in replies] == answers
     assert box.orders == orders
@@ -55,11 +55,12 @@ def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
     assert Rc2800Session(new_box(blind=True)).receive(b"A\rE\r") == [b"A ERR=05\r", b"E ERR=05\r"]
 
 
-@pytest.mark.parametrize(
+@every_row(
     "said",
     [b"235\r", b"A\r235\r\r", b"A2x5\r", b"A-5\r", b"a235\r", b"AA235\r", b"A1234\r", b"A235", b"A 235\r", b"A235E10\r",
      b"S235\r", b"A" + b"1" * 100 + b"\r", b"\r\r\r"],
 )  # fmt: skip
-def test_damaged_commands_move_nothing(box: BenchBox, said: bytes) -> None:
+def test_damaged_commands_move_nothing(new_box: type[BenchBox], said: bytes) -> None:
+    box = new_box(at=(235, 25))
     Rc2800Session(box).receive(said)
     assert box.orders == []

@@ -20,6 +20,7 @@ from rotator.monitor.transcript import At, LinkNote, Piece, Way, parse
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -90,7 +91,7 @@ def replay(text: str, box: BenchBox) -> None:
                 link = links[source.link]
                 if str(source) not in connections:
                     seen = Visitor(box) if link.read_only else box
-                    connections[str(source)] = Replay(session_maker(link, seen, sky=SKY))
+                    connections[str(source)] = Replay(session_maker(link, sky=SKY)(seen))
                 connection = connections[str(source)]
                 if way is Way.IN:
                     connection.came(moment_s, data)
@@ -100,7 +101,7 @@ def replay(text: str, box: BenchBox) -> None:
         connection.ends()
 
 
-@pytest.mark.parametrize("path", RECORDINGS, ids=lambda path: path.stem)
+@every_row("path", RECORDINGS)
 def test_it_is_said_again(new_box: type[BenchBox], path: Path) -> None:
     box = new_box()
     replay(path.read_text(encoding="ascii"), box)

@@ -18,6 +18,7 @@ from rotator.exchange.orders import Aim, Order, Park, Stop
 from rotator.protocols.rotctld import BadRequest, Request, requests
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -100,7 +101,7 @@ def test_what_makes_no_sense_ends_the_line() -> None:
         next(reader)
 
 
-@pytest.mark.parametrize(("line", "replies", "orders"), ROWS)
+@every_row(("line", "replies", "orders"), ROWS)
 def test_each_request(new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order]) -> None:
     whole = [line + end for end in (b"\n", b"\r\n")]
     for pieces in [[each] for each in whole] + [[bytes([byte]) for byte in each] for each in whole]:
@@ -204,7 +205,7 @@ def test_positions_have_two_decimals(new_box: type[BenchBox]) -> None:
     assert RotctldSession(box).receive(b"p\n") == [b"123.46\n7.00\n"]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth", "elevation", "limits"),
     [
         ((0, 450), (0, 180), (0, 450, 0, 180)),

@@ -9,14 +9,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-import pytest
-
 from hw.ports import Axis, Direction
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Order, Park, Speed, Stop
 from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.rotctld_caps import status_words
 from rotator.protocols.rotctld_session import RotctldSession
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -28,7 +27,7 @@ OK, INVALID, NOT_AVAILABLE = "RPRT 0\n", "RPRT -1\n", "RPRT -11\n"
 # --- orders
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("line", "orders"),
     [
         ("M 2 -1", [UP]),
@@ -63,13 +62,14 @@ OK, INVALID, NOT_AVAILABLE = "RPRT 0\n", "RPRT -1\n", "RPRT -11\n"
         ("\\pause 60 S", [Stop()]),
     ],
 )
-def test_orders(box: BenchBox, line: str, orders: list[Order]) -> None:
+def test_orders(new_box: type[BenchBox], line: str, orders: list[Order]) -> None:
+    box = new_box(at=(235, 25))
     session = RotctldSession(box)
     assert set(session.receive(line.encode() + b"\n")) == {OK.encode()}
     assert box.orders == orders
 
 
-@pytest.mark.parametrize(
+@every_row(
     "line",
     [
         *(
@@ -89,8 +89,9 @@ def test_orders(box: BenchBox, line: str, orders: list[Order]) -> None:
         *("M 16\n50", "P 12.5\n7.5"),
     ],
 )
-def test_what_moves_nothing(box: BenchBox, line: str) -> None:
+def test_what_moves_nothing(new_box: type[BenchBox], line: str) -> None:
     """Nor do arguments go on in the next line."""
+    box = new_box(at=(235, 25))
     assert RotctldSession(box).receive(line.encode() + b"\n")[0] == INVALID.encode()
     box.wait(0.5)
     assert box.turned == set()
@@ -113,7 +114,7 @@ def test_a_box_that_refuses_says_so_once(new_box: type[BenchBox]) -> None:
 # --- levels, functions, parameters, settings
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("line", "answer"),
     [
         ("V ?", "SPEED \nRPRT 0\n"),
@@ -150,7 +151,8 @@ def test_a_box_that_refuses_says_so_once(new_box: type[BenchBox]) -> None:
         ("\xad timeout", "timeout=0\n"),
     ],
 )
-def test_settings(box: BenchBox, line: str, answer: str) -> None:
+def test_settings(new_box: type[BenchBox], line: str, answer: str) -> None:
+    box = new_box(at=(235, 25))
     assert RotctldSession(box).receive(line.encode("latin-1") + b"\n") == [answer.encode()]
     assert box.orders == []
 
@@ -201,7 +203,7 @@ def axis(
     return AxisStatus(low_deg, high_deg, angle_deg, drive=drive, moving=moving)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth", "elevation", "words"),
     [
         (axis(0, 450, 200), axis(0, 180, 20), ""),

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import pytest
-
 from rotator.protocols.rotctld import VERBS, Request, encode, requests
 from rotator.protocols.rotctld_session import RotctldSession
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -54,9 +53,10 @@ EXTENDED = [
 ]
 
 
-@pytest.mark.parametrize(("line", "answer"), EXTENDED)
-def test_records_with_labels(box: BenchBox, line: str, answer: str) -> None:
+@every_row(("line", "answer"), EXTENDED)
+def test_records_with_labels(new_box: type[BenchBox], line: str, answer: str) -> None:
     """In one piece: CQRLOG and others read once."""
+    box = new_box(at=(235, 25))
     assert RotctldSession(box).receive(line.encode() + b"\n") == [answer.encode()]
 
 
@@ -65,13 +65,14 @@ def test_the_separator_is_for_one_command(box: BenchBox) -> None:
     assert RotctldSession(box).receive(b"p;p p\n") == [plain, labelled, plain]
 
 
-@pytest.mark.parametrize("line", ["+", "?", "p;", ";;", "+foo", "P 10 20 +"])
-def test_a_separator_with_no_command_behind_it_is_no_command(box: BenchBox, line: str) -> None:
+@every_row("line", ["+", "?", "p;", ";;", "+foo", "P 10 20 +"])
+def test_a_separator_with_no_command_behind_it_is_no_command(new_box: type[BenchBox], line: str) -> None:
+    box = new_box(at=(235, 25))
     assert RotctldSession(box).receive(line.encode() + b"\n") == [b"RPRT -4\n"]
     assert box.orders == []
 
 
-@pytest.mark.parametrize("mark", "+;|,:.-/@\"'!*(=~[^$&%<{?")
+@every_row("mark", "+;|,:.-/@\"'!*(=~[^$&%<{?")
 def test_extended_requests_read_back_as_they_are_written(mark: str) -> None:
     separator = "\n" if mark == "+" else mark
     for verb in VERBS:

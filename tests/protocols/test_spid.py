@@ -8,6 +8,7 @@ import pytest
 
 from rotator.protocols import spid
 from rotator.protocols.spid import TURNS, Command, Frame, FrameReader, Model, Turn, decode, encode
+from tests.tables import every_row
 
 Feed = Callable[[FrameReader, bytes], list[Frame]]
 ROT1, ROT2, MD01 = Model.ROT1PROG, Model.ROT2PROG, Model.MD01
@@ -40,7 +41,7 @@ RECORDED = [
 ]
 
 
-@pytest.mark.parametrize(("model", "pulses", "wire", "frame"), RECORDED)
+@every_row(("model", "pulses", "wire", "frame"), RECORDED)
 def test_reads_what_it_writes_and_writes_what_it_reads(model: Model, pulses: int, wire: bytes, frame: Frame) -> None:
     assert decode(wire, model, pulses) == frame
     assert encode(frame, model, pulses) == wire
@@ -60,14 +61,14 @@ def test_angles_are_cut_as_hamlib_cuts_them(model: Model, pulses: int, azimuth_d
     assert encode(Frame(Command.SET, azimuth_deg, 0), model, pulses)[1:5] == digits
 
 
-@pytest.mark.parametrize("garbage", [0x00, 0x7F, 0xAC, 0x57, 0x20])
+@every_row("garbage", [0x00, 0x7F, 0xAC, 0x57, 0x20])
 def test_what_hamlib_leaves_in_a_moves_fifth_and_tenth_byte_means_nothing(garbage: int) -> None:
     wire = bytearray(LEFT)
     wire[5] = wire[10] = garbage
     assert FrameReader(MD01, 10).feed(bytes(wire)) == [Frame(Command.MOVE, turn=Turn.LEFT)]
 
 
-@pytest.mark.parametrize("pulses_sent", [0, 1, 2, 10, 0xFF])
+@every_row("pulses_sent", [0, 1, 2, 10, 0xFF])
 def test_a_controller_counts_its_own_pulses_not_the_clients(pulses_sent: int) -> None:
     wire = bytearray(SET_123_77)
     wire[5] = wire[10] = pulses_sent
@@ -112,21 +113,21 @@ def feed(request: pytest.FixtureRequest) -> Feed:
     return pieces
 
 
-@pytest.mark.parametrize("junk", NO_FRAMES)
-@pytest.mark.parametrize("model", [ROT2, MD01])
+@every_row("junk", NO_FRAMES)
+@every_row("model", [ROT2, MD01])
 def test_what_is_no_frame_is_passed_over_and_the_next_is_found(feed: Feed, model: Model, junk: bytes) -> None:
     reader = FrameReader(model, 2)
     assert feed(reader, junk) == []
     assert feed(reader, SET_123_77 + STOP) == [Frame(Command.SET, 123.5, 77), Frame(Command.STOP)]
 
 
-@pytest.mark.parametrize("kept", range(13))
+@every_row("kept", range(13))
 def test_a_frame_that_was_cut_off_spoils_no_other_and_becomes_none(feed: Feed, kept: int) -> None:
     reader = FrameReader(ROT2, 2)
     assert feed(reader, SET_123_77[:kept] + STOP + STATUS) == [Frame(Command.STOP), Frame(Command.STATUS)]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "elevation_deg", "pulses", "reply"),
     [
         (12.5, 34.0, 2, "57 03 07 02 05 02 03 09 04 00 02 20"),

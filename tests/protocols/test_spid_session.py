@@ -13,6 +13,7 @@ from rotator.exchange.orders import Aim, Jog, Order, Stop
 from rotator.protocols.session import Session
 from rotator.protocols.spid import Command, Frame, Model, Turn, encode
 from rotator.protocols.spid_session import SpidSession
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -58,7 +59,7 @@ def test_md_01(box: BenchBox, feed: Feed) -> None:
     assert box.orders == [Aim(123.5, 77), Stop(), LEFT]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("turn", "jogs"),
     [
         (Turn.LEFT, [LEFT]),
@@ -69,7 +70,8 @@ def test_md_01(box: BenchBox, feed: Feed) -> None:
         (Turn.RIGHT | Turn.DOWN, [RIGHT, DOWN]),
     ],
 )
-def test_md_01_turns_both_axes_at_once(box: BenchBox, turn: Turn, jogs: list[Order]) -> None:
+def test_md_01_turns_both_axes_at_once(new_box: type[BenchBox], turn: Turn, jogs: list[Order]) -> None:
+    box = new_box(at=(235, 25))
     assert SpidSession(box, MD01).receive(encode(Frame(Command.MOVE, turn=turn), MD01, 10)) == []
     assert box.orders == jogs
 
@@ -86,7 +88,7 @@ def test_the_pulses_that_it_says_are_those_that_it_takes(box: BenchBox, pulses: 
     assert aim.elevation_deg == pytest.approx(77.25, abs=1 / pulses)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "elevation_deg", "order"),
     [
         (-90, 20, Aim(270, 20)),

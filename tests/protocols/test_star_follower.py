@@ -46,6 +46,7 @@ def bench(box: BenchBox) -> Bench:
     return Bench(box)
 
 
+@pytest.mark.long
 def test_it_goes_with_the_sky(bench: Bench) -> None:
     star = bench.star(180, 30)
     assert bench.follower.go(star) is None
@@ -58,6 +59,7 @@ def test_it_goes_with_the_sky(bench: Bench) -> None:
     assert bench.remarks == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", [Stop(), Stop((Axis.AZIMUTH,)), Stop(latch=True), Aim(100, 20), Park()])
 def test_what_another_orders_ends_it(bench: Bench, order: Stop | Aim | Park) -> None:
     bench.follower.go(bench.star(180, 30))
@@ -94,6 +96,7 @@ def test_a_star_below_the_horizon_is_refused(bench: Bench) -> None:
     assert bench.box.orders == []
 
 
+@pytest.mark.long
 def test_its_setting_ends_it(bench: Bench) -> None:
     bench.follower.go(bench.star(270, 0.5))
     bench.beats(200, 3)
@@ -101,6 +104,7 @@ def test_its_setting_ends_it(bench: Bench) -> None:
     assert all(isinstance(order, Aim) and (order.elevation_deg or 0) >= 0 for order in bench.box.orders)
 
 
+@pytest.mark.long
 def test_the_end_of_the_rotor_s_range_ends_it(new_box: type[BenchBox]) -> None:
     bench = Bench(new_box(azimuth=(0.0, 185.0)))
     bench.follower.go(bench.star(184.5, 30))

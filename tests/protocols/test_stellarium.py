@@ -15,6 +15,7 @@ from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.orbits.earth import Site
 from rotator.protocols.session import Session
 from rotator.protocols.stellarium import StellariumSession, decode, encode
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -110,7 +111,7 @@ def test_below_the_horizon_it_says_so(box: BenchBox) -> None:
     assert remarks == ["a target below the horizon is not obeyed"]
 
 
-@pytest.mark.parametrize(
+@every_row(
     "damaged",
     [
         b"GET / HTTP/1.1\r\n",
@@ -120,7 +121,8 @@ def test_below_the_horizon_it_says_so(box: BenchBox) -> None:
         bytes((20, 0, 0, 0)) + bytes(12) + b"\x00\x00\x00\x80",
     ],
 )
-def test_a_damaged_frame_ends_the_connection(box: BenchBox, damaged: bytes) -> None:
+def test_a_damaged_frame_ends_the_connection(new_box: type[BenchBox], damaged: bytes) -> None:
+    box = new_box(at=(235, 25))
     remarks: list[str] = []
     session = StellariumSession(box, SKY, remarks.append)
     session.receive(damaged + target(200, 40))

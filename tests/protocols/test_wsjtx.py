@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from rotator.exchange.orders import Aim
 from rotator.protocols.wsjtx import DAY_S, BodyDirection, WsjtxSession, encode, parse
+from tests.tables import every_row
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -36,12 +37,12 @@ def moon(second_of_day: int, azimuth_deg: float, elevation_deg: float) -> bytes:
     return encode("Moon", BodyDirection(second_of_day, azimuth_deg, elevation_deg))
 
 
-@pytest.mark.parametrize("text", [NOW, WITH_ZEROS, NOW.replace(b"\n", b"\r\n"), OF_OLD, NOW.replace(b",123", b", 123")])
+@every_row("text", [NOW, WITH_ZEROS, NOW.replace(b"\n", b"\r\n"), OF_OLD, NOW.replace(b",123", b", 123")])
 def test_the_moon(text: bytes) -> None:
     assert parse(text, "Moon") == BodyDirection(AT_S, 123.4, 45.6)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "body", "place"),
     [
         (NOW, "Sun", BodyDirection(AT_S, 200.0, -12.3)),
@@ -71,7 +72,7 @@ def test_reads_what_it_writes(second_of_day: int, azimuth_tenths: int, elevation
     assert parse(encode("Moon", place), "Moon") == place
 
 
-@pytest.mark.parametrize(
+@every_row(
     "line",
     [b"17:03:22,1x3.4,045.6,Moon\n", b"17:03:22,,045.6,Moon\n", b"17:03:22,123.4,Moon\n", b"17:03,123.4,045.6,Moon\n",
      b"17:03:22,123.4,0-5-3,Moon\n", b"17:03:22,900.0,045.6,Moon\n", b"17:03:22,123.4,095.6 ,moon\n",

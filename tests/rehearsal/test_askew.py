@@ -27,6 +27,7 @@ def flown_to(azimuth_deg: float, elevation_deg: float, **mount: Any) -> BoxPlant
     return box
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", [(100.0, 30.0), (2.0, 10.0), (358.0, 60.0), (200.0, 150.0)])
 def test_the_boom_points_where_it_is_ordered_and_the_program_is_told_so(order: tuple[float, float]) -> None:
     box = flown_to(*order, model=ASKEW)
@@ -42,6 +43,7 @@ def test_without_its_model_the_boom_is_as_far_off_as_the_mount() -> None:
     assert great_circle_deg(*flown_to(100.0, 30.0).pointing()[:2], 100.0, 30.0) > 2.0
 
 
+@pytest.mark.long
 def test_park_is_a_place_of_the_axes() -> None:
     box = flown_to(100.0, 30.0, model=ASKEW, park_azimuth_deg=50, park_elevation_deg=20)
     box.post(Source("console"), Park())

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from rotator.protocols.table_text import FORM
 from rotator.rehearsal.passes import SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
+from tests.tables import every_row
 
 PASSES = sorted(SHIPPED.glob("*.csv"))
 
@@ -58,7 +59,7 @@ def test_a_negative_azimuth_is_the_direction_it_means(path: Path) -> None:
     assert [row[1] for row in read_pass(path).rows] == [330.0, 0.0]
 
 
-@pytest.mark.parametrize("shipped", PASSES, ids=lambda path: path.stem)
+@every_row("shipped", PASSES)
 def test_the_twelve_passes(shipped: Path) -> None:
     flown = read_pass(shipped)
     assert flown.name == shipped.stem
@@ -73,7 +74,7 @@ def test_there_are_twelve() -> None:
 # --- in between
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuths_deg", "half_way_deg"),
     [
         ((10, 20), 15),
@@ -172,7 +173,7 @@ def test_what_is_no_pass_is_refused_with_its_line(path: Path, text: str, fault: 
     assert str(refused.value) == f"{path}{fault}"
 
 
-@pytest.mark.parametrize("name", shipped_names())
+@every_row("name", shipped_names())
 def test_a_shipped_pass_has_a_name(name: str) -> None:
     assert find_pass(name) == read_pass(SHIPPED / f"{name}.csv")
 

@@ -19,6 +19,7 @@ class Remedy(Enum):
     CHECK = "saying that both relays have been looked at"
     HOME = "the same, and homing: the count is lost"
     CONFIRM = "saying where it points"
+    TELL = "a stop, and saying where it points: nothing but the count knows"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +53,8 @@ LOST = Remedy.HOME
 # It arrives after at most 15 s; then a hand turns it for a second or two.
 TURNED = Outcome("relay welded", 22.0, Remedy.AGAIN, turns_on=True)
 
+HELD = Outcome("brake did not release", 3.0, Remedy.AGAIN, before=True)
+
 RELAYS_AND_POTS = {
     "adc-gone": Outcome("sensor silent", 0.3),
     "pot-open": Outcome("pot open or shorted", 0.3),
@@ -78,6 +81,13 @@ RELAYS_AND_POTS = {
     "relay-welded-up": TURNED,
     "relay-welded-ccw": Outcome(STANDS_STILL, 2.0, Remedy.CHECK, turns_on=True),
     "relay-welded-down": Outcome(STANDS_STILL, 2.0, Remedy.CHECK, turns_on=True),
+}
+WITH_SPEED = RELAYS_AND_POTS | {
+    "dac-gone": Outcome("speed output", 1.1),  # its voltage is written at each change, and once a second
+    "dac-noisy": Outcome("speed output", 6.0),
+    "dac-gaps": goes_on(),
+    "dac-dips": goes_on(),  # its voltage is written again every second
+    "azimuth-wind-turns": TURNED,  # as fast as the motor at its lowest speed
 }
 COUNTED = {
     # Three periods of 5° at 6°/s are 2.5 s.
@@ -131,15 +141,74 @@ BOXES = {
     "motor-stalled": goes_on(astray=True),
     "motor-slow": goes_on(),  # but until it arrives the box takes it for up to 30° further on
 }
+BRIDGES = {
+    # At full speed nothing is written: it shows when the motor is to brake.
+    "pwm-refuses": Outcome("motor driver", 16.0, Remedy.NOTHING),
+    "motor-stalled": Outcome("no pulses", 1.5, Remedy.TELL),  # a dead encoder looks the same
+    "encoder-dead": Outcome("no pulses", 1.5, Remedy.TELL),
+    "encoder-channel-stuck": Outcome("no pulses", 1.5, Remedy.TELL),
+    "motor-reversed": Outcome("pot moves the wrong way", 1.0),
+    "motor-slow": goes_on(),
+    "bridge-shorted-ccw": Outcome("pot moves the wrong way", 1.0),
+    "bridge-shorted-down": Outcome("pot moves the wrong way", 1.0),
+    # It shows when the axis has come to its place and does not stop.
+    "bridge-shorted-cw": Outcome("pot moves the wrong way", 20.0),
+    "bridge-shorted-up": Outcome("pot moves the wrong way", 20.0),
+}
+JUMPED = "its readings jumped to another place"
+CONTROLLERS = {
+    # It goes on to its last target: no stop reaches it.
+    "controller-deaf": Outcome("controller silent", 1.4, turns_on=True),
+    "controller-garbled": Outcome("controller not understood", 1.4, turns_on=True),
+    "controller-unplugged": Outcome("controller silent", 0.2, turns_on=True),
+    "controller-slow": goes_on(),
+    "controller-ignores-stop": goes_on(),  # nothing stops it in mid-move: test_controllers.py
+    # Turned the way that it goes anyhow, and beyond its target.
+    "knob-turned": Outcome("axis does not follow", 18.0, turns_on=True),
+    # The controller believes its sensor, and goes where that says.
+    "jumps": goes_on(astray=True, notice=JUMPED),
+    # With the time that a controller may take to turn round.
+    "motor-stalled": Outcome("axis does not follow", 3.0),
+    "motor-slow": goes_on(),
+}
+# Nothing comes back from a TV rotator: after any of these it points elsewhere, until it has been at its end stop.
+BY_TIME = dict.fromkeys(
+    (
+        *("motor-stalled", "motor-slow", "motor-reversed", "hand-turns"),
+        *("relay-welded-cw", "relay-welded-up", "relay-welded-ccw", "relay-welded-down"),
+    ),
+    goes_on(astray=True, before=True, remedy=LOST),
+)
+DRIVER = Outcome("stepper driver", 0.3, Remedy.HOME)
+STEPPERS = {
+    "chip-silent": Outcome("controller silent", 0.3),
+    "chip-dips": Outcome("count lost", 0.3, Remedy.HOME),
+    "chip-unpowered": Outcome("controller silent", 0.3, Remedy.HOME),
+    "driver-hot": DRIVER,
+    "driver-warm": goes_on(notice="its chip is hot"),
+    "coil-short": DRIVER,
+    "coil-open": Outcome("stepper driver", 0.5, Remedy.HOME),
+    "enable-broken": DRIVER,
+    "held": goes_on(astray=True, remedy=Remedy.HOME),  # without an encoder nobody counts what the motor does
+    "switch-broken": goes_on(),  # it is asked at homing alone
+}
 OUTCOMES = {
     "g5500": RELAYS_AND_POTS,
+    "ham4": RELAYS_AND_POTS | dict.fromkeys(("brake-stuck", "wedge-sticks"), HELD),
+    "g1000": WITH_SPEED,
     "u100": COUNTED,
     "isel": MOTEUS,
     "servos": SERVOS,
     "orbit360": BOXES,
+    "slew-drive": BRIDGES,
+    "controller": CONTROLLERS,
+    "tv-rotator": BY_TIME,
+    "satnogs": STEPPERS,
 }
 REAL_TIME = {
     "g5500": {"bus-hung": Outcome("sensor late")},
+    "ham4": {"bus-hung": Outcome("sensor late")},
+    "g1000": {"bus-hung": Outcome("sensor late")},
     "servos": {"bus-hung": Outcome("axis does not follow")},
     "isel": {
         "adapter-unplugged": Outcome("controller silent"),

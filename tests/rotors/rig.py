@@ -59,6 +59,10 @@ class Kind:
 
 KINDS = (
     Kind("g5500", AngleSource.MEASURED, (90.0, 30.0), 1.0, 1.3),
+    # With its brake: the stop in the south, and an elevation of another make beside it.
+    Kind("ham4", AngleSource.MEASURED, (90.0, 30.0), 1.5, 2.0),
+    # From the full speed of its motor, at any moment.
+    Kind("g1000", AngleSource.MEASURED, (90.0, 30.0), 1.0, 1.3),
     Kind("u100", AngleSource.COUNTED, (90.0, 70.0), 1.0, 1.0, short_deg=2.0),
     # From 30°/s, at 20°/s² down.
     Kind("isel", AngleSource.MEASURED, (90.0, 30.0), 0.05, 24.0),
@@ -66,7 +70,16 @@ KINDS = (
     Kind("servos", AngleSource.MODELLED, (90.0, 90.0), 0.6, 2.0, trembles_deg=1.0),
     # The box's dead band, half a step of the chip, and half the play of the gear.
     Kind("orbit360", AngleSource.MODELLED, (90.0, 30.0), 2.0 + 0.7 + 0.25, 1.5),
+    # Two counts of its encoder; from 3°/s, at 3°/s² down.
+    Kind("slew-drive", AngleSource.COUNTED, (90.0, 30.0), 0.15, 2.0),
+    # Half a degree of the order, half the play of the gear, and the controller's dead band.
+    Kind("controller", AngleSource.MEASURED, (90.0, 30.0), 1.1, 2.0),
+    # Its motors are up to 2.5 % faster or slower than the file says, and nothing comes back.
+    Kind("tv-rotator", AngleSource.MODELLED, (90.0, 30.0), 5.0 + 1.0 + 0.025 * 180.0, 1.0),
+    # From 12°/s, at 6°/s² down.
+    Kind("satnogs", AngleSource.COUNTED, (90.0, 30.0), 0.05, 13.0),
 )
+OF = {kind.profile: kind for kind in KINDS}
 
 
 def all_but(**defects: str) -> pytest.MarkDecorator:
@@ -92,6 +105,9 @@ def configured(profile: str, **tables: Any) -> Config:
     values.pop("panel", None)
     if profile == "isel":
         make_geared(values)
+    if profile in ("tv-rotator", "ham4", "g1000"):  # with a second one, on its side
+        values["elevation"] = {"max_deg": 180}
+        values["azimuth"]["offset_deg"] = 0
     for table, keys in (("rotor", {"hardware": "sim"}), *tables.items()):
         own = values.get(table, {}) | keys
         values[table] = {key: value for key, value in own.items() if value is not None}

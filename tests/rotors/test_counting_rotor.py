@@ -10,10 +10,10 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Home, Jog, Stop
-from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
+from tests.rotors.rig import AZ, EL, OF, PERSON, Box
 
 NewBox = Callable[..., Box]
-U100 = KINDS[1]
+U100 = OF["u100"]
 MINUS, OFF, PLUS = Direction
 PRESS_S = 2.0
 """How long an axis that was not homed obeys one order."""

@@ -17,7 +17,19 @@ from tests.rotors.rig import AZ, EL, KINDS, STARTED_S, Box, Kind, all_but
 DUMMY_DPS = 6.0
 POLL_S = 0.1
 LATELY_S = 3.0
-BEYOND_DEG = {"g5500": 1.5, "u100": 8.0, "isel": 0.2, "servos": 1.0, "orbit360": 4.0}
+BEYOND_DEG = {
+    "g5500": 1.5,
+    "ham4": 2.0,
+    "g1000": 1.5,
+    "u100": 8.0,
+    "isel": 0.2,
+    "servos": 1.0,
+    "orbit360": 4.0,
+    "slew-drive": 0.5,
+    "controller": 4.0,
+    "tv-rotator": 8.0,
+    "satnogs": 0.2,
+}
 """How far each kind may go past a corner: its coast and the play of its gears; a counted axis stops at an edge."""
 ISEL = next(kind for kind in KINDS if kind.profile == "isel")
 

@@ -84,8 +84,9 @@ def test_off_in_mid_move_is_the_end_of_it(box: Box) -> None:
 
 def test_off_at_any_moment_keeps_nobody_from_going_on(box: Box) -> None:
     box.order(Aim(120.0, 60.0))
+    every_s = 0.5 if box.kind.profile == "slew-drive" else 0.13  # it gathers speed slowly: in less it goes nowhere
     for _ in range(25):
-        box.run(0.13)
+        box.run(every_s)
         box.rotor.off()
         for axis in Axis:
             box.rotor.obey(axis, HOLD if not box.config.rotor.switched else Run(OFF, 0.0))
@@ -127,6 +128,8 @@ def test_with_a_fault_nothing_moves(box: Box, order: Order) -> None:
 
 @EACH_AXIS
 def test_a_limit_switch_stops_that_way_and_not_the_other(kind: Kind, new_box: NewBox, axis: Axis) -> None:
+    if kind.profile == "tv-rotator":
+        pytest.skip("its own end switches are all that it has")
     box = new_box(kind, limits=LIMITS, pulses=BELOW, lcd=NO_DISPLAY)
     box.run(1.0)
     box.order(Aim(100.0, 40.0))
@@ -154,6 +157,8 @@ def test_a_limit_switch_stops_that_way_and_not_the_other(kind: Kind, new_box: Ne
 
 
 def test_closed_limit_switches_are_in_nobody_s_way(kind: Kind, new_box: NewBox) -> None:
+    if kind.profile == "tv-rotator":
+        pytest.skip("its own end switches are all that it has")
     box = new_box(kind, limits=LIMITS, pulses=BELOW, lcd=NO_DISPLAY)
     box.run(1.0)
     for azimuth_deg, elevation_deg in ((kind.short_deg, kind.short_deg), (30.0, 20.0)):

@@ -12,10 +12,10 @@ from firmware_sim.rotors.servo import SimServoRotor
 from hw.ports import Direction, HardwareError
 from rotator.control.commands import Steer
 from rotator.exchange.orders import Aim, Confirm, Jog, LetGo, Release, Stop
-from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box, Kind
+from tests.rotors.rig import AZ, EL, OF, PERSON, Box, Kind
 
 NewBox = Callable[..., Box]
-_, _, ISEL, SERVOS, ORBIT360 = KINDS
+ISEL, SERVOS, ORBIT360 = OF["isel"], OF["servos"], OF["orbit360"]
 PLUS = Direction.PLUS
 
 
@@ -46,7 +46,7 @@ def test_nothing_moves_a_controller_that_has_forgotten_its_turn_but_a_person_s_w
 @pytest.mark.parametrize(
     ("kind", "fault", "name"),
     [
-        pytest.param(KINDS[0], "azimuth-pot-open", "pot open or shorted", id="pot"),
+        pytest.param(OF["g5500"], "azimuth-pot-open", "pot open or shorted", id="pot"),
         pytest.param(ISEL, "azimuth-power-cycled", "position unknown", id="turn-forgotten"),
         pytest.param(ISEL, "azimuth-silent", "controller silent", id="controller"),
         pytest.param(SERVOS, "board-unpowered", "servo board", id="board"),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import pytest
 
-from benchmarks.sectors import live
+from benchmarks.drills.boxes import KINDS
+from benchmarks.drills.draw import BESIDE, draw
+from benchmarks.drills.play import play
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Aim, Jog, Stop
 from tests.rotors.rig import Box, Kind
@@ -63,7 +64,9 @@ def test_orders_that_change_in_mid_move_do_not_cut_its_corner(beside: Box) -> No
     run(beside, 3.0)
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_a_random_life_beside_random_sectors(kind: Kind, seed: int) -> None:
-    outcome: Any = live(kind.profile, seed, chapters=4)
-    assert outcome is None or (outcome.inside, outcome.missed) == ("", [])
+@pytest.mark.parametrize("seed", [f"1{BESIDE}", f"2{BESIDE}"])
+@pytest.mark.parametrize("drilled", KINDS)
+def test_a_random_drill_beside_random_sectors(drilled: str, seed: str) -> None:
+    drill = draw(seed, drilled)
+    assert drill.tables["mount"]["forbidden"]
+    assert play(drill).violations == []

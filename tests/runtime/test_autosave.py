@@ -22,6 +22,7 @@ from rotator.runtime.autosave import Autosave, aside
 from rotator.runtime.loop import ControlLoop
 from rotator.store.hanging import writes
 from tests.refusing import hanging, wait_until
+from tests.search import some
 
 STATION = """
 [azimuth]
@@ -72,6 +73,7 @@ def path(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_what_the_motors_taught_is_there_the_next_time(path: Path) -> None:
     first = Running(path, path)
     assert first.begun_with == AS_SAID
@@ -87,6 +89,7 @@ def test_a_box_that_has_not_turned_writes_nothing(path: Path) -> None:
     assert not (path.parent / "var").exists()
 
 
+@pytest.mark.long
 def test_other_figures_in_the_file_begin_anew(path: Path) -> None:
     first = Running(path, path)
     first.turn_about()
@@ -95,6 +98,7 @@ def test_other_figures_in_the_file_begin_anew(path: Path) -> None:
     assert Running(path, path).begun_with == (Motor(5.0, 5.0 * 0.17),) * 2
 
 
+@pytest.mark.long
 def test_a_state_that_cannot_be_written_ends_in_the_log(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     (path.parent / "var").write_text("a file where a folder should be")
     box = Running(path, path)
@@ -138,8 +142,8 @@ def test_without_a_file_it_is_said(path: Path, caplog: pytest.LogCaptureFixture)
 CALIBRATIONS = (Calibrate(Axis.AZIMUTH, high_end=False), Calibrate(Axis.ELEVATION, high_end=False))
 
 
-@pytest.mark.parametrize("works", range(7))
-@pytest.mark.parametrize("breaks", range(6))
+@pytest.mark.search
+@pytest.mark.parametrize(("breaks", "works"), some([(breaks, works) for works in range(7) for breaks in range(works)]))
 def test_a_card_may_refuse_at_any_time_and_each_calibration_is_in_the_file_in_the_end(
     path: Path, breaks: int, works: int, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -181,6 +185,7 @@ def test_what_could_not_be_saved_is_said_once_and_tried_again_until_it_is(
     assert caplog.text.count("calibration saved in") == 1
 
 
+@pytest.mark.long
 def test_closed_twice_it_saves_once(path: Path) -> None:
     box = Running(path, path)
     box.turn_about()
@@ -191,6 +196,7 @@ def test_closed_twice_it_saves_once(path: Path) -> None:
     assert state.stat().st_mtime_ns == written_ns
 
 
+@pytest.mark.long
 def test_the_end_does_not_wait_for_a_card_that_hangs_and_the_figures_are_written_when_it_goes_on(path: Path) -> None:
     box = Running(path, path)
     box.turn_about()

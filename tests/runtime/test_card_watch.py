@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.config.writing import replace
+from rotator.config.toml_text import replace
 from rotator.exchange.motor import ALL_OPEN
 from rotator.exchange.orders import Aim, Release, Stop
 from rotator.exchange.sources import Source

@@ -199,3 +199,14 @@ def test_too_many_orders_are_logged_once(bench: Bench, caplog: pytest.LogCapture
     assert record.message == (
         "link#1: more than 10 orders a second: of those beyond, only the newest of each kind counts"
     )
+
+
+def test_a_status_says_that_an_order_does_not_show_in_it_yet(bench: Bench) -> None:
+    asking, ordering = bench.client(1), bench.client(2)
+    assert not asking.status().orders_wait
+    ordering.order(Stop(latch=True))
+    assert asking.status().orders_wait
+    assert not asking.status().latched
+    bench.loop.cycle()
+    assert not asking.status().orders_wait
+    assert asking.status().latched == "link#2"

@@ -20,6 +20,7 @@ from rotator.exchange.sources import PAGE, TRACKER, Source
 from rotator.runtime.event_watch import LONGEST_S, TICK_S, EventWatch
 from tests.runtime import loop_rig
 from tests.runtime.loop_rig import LINK, PATIENCE_S, PERIOD_S
+from tests.tables import every_row
 
 PANEL, CONSOLE = Source("panel"), Source("console", 1)
 BROWSER = Source(PAGE, 2)
@@ -62,7 +63,8 @@ class Rig(loop_rig.Rig):
         return float(sum(abs(now - then) for now, then in zip(self.world.antenna(), before, strict=True)))
 
 
-@pytest.mark.parametrize(
+@pytest.mark.quiet
+@every_row(
     "orders",
     [
         (Aim(300.0, 20.0),),
@@ -72,7 +74,6 @@ class Rig(loop_rig.Rig):
         (Park(),),
         (LoadTimed(1.0, ((200.0, 90.0), (300.0, 20.0), (10.0, 90.0))), RunTimed()),
     ],
-    ids=lambda orders: type(orders[-1]).__name__,
 )
 def test_what_a_link_ordered_ends_and_begins_again_with_the_next_order(orders: tuple[Order, ...]) -> None:
     rig = Rig()
@@ -121,6 +122,7 @@ PAGE_ORDERS: list[Order] = [
 ]
 
 
+@pytest.mark.quiet
 @pytest.mark.parametrize("order", PAGE_ORDERS, ids=lambda order: type(order).__name__)
 def test_what_was_ordered_on_a_page_that_stands_still_ends(order: Order) -> None:
     """Its STOP would not arrive either."""

@@ -15,10 +15,12 @@ from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.model import Config
+from rotator.control.commands import Run
 from rotator.exchange.orders import Aim, Jog, Stop
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.loop import ControlLoop
 from tests.runtime.loop_rig import AZ, EL, LINK, LOOK_S, PERIOD_S, Rig, records
+from tests.tables import every_row
 
 
 @pytest.fixture
@@ -77,7 +79,8 @@ class FailingLines:
         pass
 
 
-@pytest.mark.parametrize("fails", list(itertools.product((False, True), repeat=5)), ids=str)
+@pytest.mark.long
+@every_row("fails", list(itertools.product((False, True), repeat=5)))
 def test_with_any_line_failing_the_status_says_what_the_relays_may_do(fails: tuple[bool, ...]) -> None:
     """A relay that could not be opened is still driven: watches that heard of an opening would judge it by that."""
     rig = Rig()
@@ -163,6 +166,11 @@ class Unguarded:
     def __init__(self, bank: RelayBank) -> None:
         self._bank = bank
         self.drive, self.off, self.due_s, self.enforce = bank.drive, bank.off, bank.due_s, bank.enforce
+        self.leave = bank.leave
+
+    @property
+    def released(self) -> bool:
+        return self._bank.released
 
     def wait_until_due(self, patience_s: float) -> None:
         self._bank.wait_until_due(patience_s)
@@ -184,4 +192,18 @@ def test_a_guard_that_dies_ends_the_loop_with_every_relay_off() -> None:
     assert station.world.relay_starts >= 1, "a motor was running"
     assert station.world.drives() == (0, 0)
     rotor.close()
+    station.close()
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_brake_that_a_dead_guard_has_left_off_is_told_so_that_the_sentinel_engages_it() -> None:
+    braked = Config.model_validate({"azimuth": {"brake": {"line": 26}}})
+    station = Station(braked, time.monotonic, time.sleep, (100.0, 20.0))
+    assert isinstance(station.rotor, RelayRotor)
+    rotor = RelayRotor(cast(RelayBank, Unguarded(station.rotor.bank)), station.rotor.sensors)
+    rotor.start()
+    rotor.obey(Axis.AZIMUTH, Run(Direction.PLUS, time.monotonic() + 0.2))
+    assert station.rotor.bank.released
+    with pytest.raises(HardwareError, match="the sentinel does it"):
+        rotor.close()
     station.close()

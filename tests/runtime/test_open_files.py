@@ -35,6 +35,7 @@ def ask(client: socket.socket, line: bytes) -> bytes:
     return client.recv(4096)
 
 
+@pytest.mark.quiet
 @pytest.mark.parametrize("crowded", ["link", "page"])
 def test_a_crowd_larger_than_the_limit_fills_no_log_and_keeps_no_client_from_a_stop(
     tmp_path: Path, crowded: str
@@ -72,6 +73,7 @@ def test_a_crowd_larger_than_the_limit_fills_no_log_and_keeps_no_client_from_a_s
     assert len(errors.read_text().splitlines()) < 10
 
 
+@pytest.mark.quiet
 def test_what_finds_no_file_for_a_moment_comes_back(tmp_path: Path) -> None:
     """The limit sinks below what is open, and rises again. Meanwhile the program that is connected is served; what
     ended for lack of a file, the page and the terminal that its program has left, works as before."""

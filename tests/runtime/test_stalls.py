@@ -18,6 +18,7 @@ from rotator.exchange.faults import FaultKind
 from rotator.exchange.orders import Aim
 from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
+from tests.tables import every_row
 
 PERIOD_S = 0.05
 LINK = Source("gs232b", 1)
@@ -74,9 +75,20 @@ class Stalled:
         return {axis.fault.kind for axis in axes if axis.fault is not None}
 
 
-@pytest.mark.parametrize("before", [True, False], ids=["before a look", "after it"])
-@pytest.mark.parametrize("runs_s", [0.3, 1.5, 4.0])
-@pytest.mark.parametrize("stall_s", [0.2, 0.45, 0.7, 1.2, 3.0])
+@pytest.mark.long
+@every_row(
+    ("stall_s", "runs_s", "before"),
+    [
+        (0.2, 0.3, True),
+        (0.2, 4.0, False),
+        (0.45, 1.5, True),
+        (0.7, 0.3, False),
+        (0.7, 4.0, True),
+        (1.2, 1.5, False),
+        (3.0, 0.3, True),
+        (3.0, 4.0, False),
+    ],
+)
 def test_wherever_it_stands_still_it_says_no_more_than_that_it_was_late(
     stall_s: float, runs_s: float, before: bool
 ) -> None:

@@ -127,6 +127,7 @@ def test_a_person_has_it_tried_again_at_once(mast: Mast) -> None:
     assert mast.world.antenna()[0] == pytest.approx(60.0, abs=1.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("jog_s", [0.3, 0.5, 1.0])
 def test_short_runs_into_an_obstacle_are_judged_together(mast: Mast, jog_s: float) -> None:
     mast.run(2.0)
@@ -142,6 +143,7 @@ def test_short_runs_into_an_obstacle_are_judged_together(mast: Mast, jog_s: floa
     assert mast.world.relay_starts - starts <= 4
 
 
+@pytest.mark.long
 def test_an_end_stop_is_met_once_and_then_kept_off(mast: Mast) -> None:
     mast.world.inject("azimuth-stop-early")
     mast.run(1.0)
@@ -161,7 +163,7 @@ def test_an_end_stop_is_met_once_and_then_kept_off(mast: Mast) -> None:
     assert mast.world.antenna()[0] == pytest.approx(444.0, abs=1.0), "2° before the stop"
     assert [notice.lcd for notice in mast.status.azimuth.notices] == ["STOP MET"]
     mast.order(Release())
-    mast.order(Aim(449.0, 15.0))
+    mast.order(Jog(AZ, Direction.PLUS, 5.0))
     mast.run(10.0)
     assert said(mast) == ["end stop reached"], "a person lets it go there again"
 

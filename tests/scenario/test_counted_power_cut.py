@@ -5,6 +5,8 @@ from __future__ import annotations
 import random
 from pathlib import Path
 
+import pytest
+
 from hw.ports import Direction
 from hw.sensors.cam_count import CamCount
 from rotator.store.counts import CountsFile, Standing
@@ -48,6 +50,7 @@ class CountedBox:
             self._until_s = self.rig.clock() + self._chance.choice([0.2, 1.0, 4.0, 30.0])
 
 
+@pytest.mark.long
 def test_a_thousand_power_cuts(tmp_path: Path) -> None:
     path = tmp_path / "counts.json"
     chance = random.Random(7)

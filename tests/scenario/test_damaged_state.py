@@ -93,7 +93,7 @@ def whole_state(kind: Kind, folder: Path) -> str:
 
 def whole_counts(folder: Path) -> str:
     config = configured("u100")
-    file = counts.CountsFile(folder / counts.FILE_NAME, config.pulses.cams((AZ, EL)))
+    file = counts.CountsFile(folder / counts.FILE_NAME, config.kind.cams((AZ, EL)))
     for axis, angle_deg in zip((AZ, EL), U100.start_deg, strict=True):
         file.home(axis, angle_deg)
     return (folder / counts.FILE_NAME).read_text()
@@ -122,6 +122,7 @@ SLOW = settings(
 )
 
 
+@pytest.mark.long
 @SLOW
 @given(data=st.data())
 @pytest.mark.parametrize("kind", [G5500, U100], ids=lambda kind: kind.profile)

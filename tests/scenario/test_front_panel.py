@@ -184,6 +184,7 @@ def test_jog_drives_while_a_switch_is_held(shack: Shack) -> None:
     assert shack.shafts[1] == pytest.approx(30.0 + 6.0 * 3.0, abs=3.0)
 
 
+@pytest.mark.long
 def test_the_stop_button_stops_and_only_a_person_at_the_panel_ends_it(shack: Shack) -> None:
     shack.pc("W300 045")
     shack.wait(3.0)
@@ -226,6 +227,7 @@ def test_a_broken_wire_of_a_knob_moves_nothing_in_manual_and_is_told(axis: str, 
     assert shack.loop.status.axis(Axis(axis)).notices == ()
 
 
+@pytest.mark.long
 def test_a_knob_with_a_loose_wire_never_sends_the_antenna_to_an_end() -> None:
     """It makes and breaks contact at random, while the other knob is turned."""
     chance = random.Random(1)
@@ -266,6 +268,7 @@ def test_a_limit_switch_lets_the_axis_go_back_only() -> None:
     assert shack.world.drives() == (-1, 0)
 
 
+@pytest.mark.long
 def test_the_calibrate_switch_leads_through_homing() -> None:
     # Switched on with the calibrate switch closed and both knobs at their ends; each step of the mode switch goes on.
     shack = Shack((40.0, 25.0), calibrate=True)

@@ -1,6 +1,6 @@
 """A hundred programs on one port of a box in a process of its own, and one that never reads: all the others are served.
 
-How fast is for `benchmarks/clients.py` to say: here nothing is measured in seconds.
+How fast is for `benchmarks/running/busy.py` to say: here nothing is measured in seconds.
 """
 
 from __future__ import annotations
@@ -112,6 +112,7 @@ async def _ask_for_ever(deaf: socket.socket) -> None:
         await asyncio.get_running_loop().sock_sendall(deaf, b"1\n" * 1000)
 
 
+@pytest.mark.quiet
 def test_everybody_is_served_and_one_stop_stops_it(box: Box) -> None:
     async def talk() -> int:
         async with AsyncExitStack() as crowd:

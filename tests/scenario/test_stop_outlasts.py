@@ -43,7 +43,7 @@ class Run:
         if before:
             before._alive = False
             before.world.gpio.bury_process()
-            before.world.bus.open()
+            before.world.open_buses()
         self.station = Station(
             config,
             self.clock,
@@ -74,6 +74,7 @@ class Run:
         return self.world.antenna() != pytest.approx(stood, abs=0.5)
 
 
+@pytest.mark.quiet
 @pytest.mark.parametrize("by", [CONSOLE, BROWSER, PANEL])
 def test_after_a_stop_and_a_kill_no_order_of_a_link_moves_it_until_resume(tmp_path: Path, by: Source) -> None:
     run = Run(tmp_path)

@@ -69,12 +69,6 @@ def test_up_twice_touches_nothing(kernel: Path) -> None:
     assert (udc.stat().st_mtime_ns, udc.stat().st_ino) == before
 
 
-def test_another_identity_is_built_anew(kernel: Path) -> None:
-    raised(kernel)
-    raised(kernel, Identity("10000000abcdef01", 0x1209, 0x0001))
-    assert state(kernel)["idVendor"] == "0x1209"
-
-
 def test_down_leaves_nothing(kernel: Path) -> None:
     raised(kernel)
     lowered(kernel)
@@ -98,35 +92,28 @@ def test_the_first_controller_there_is(kernel: Path) -> None:
     assert raised(kernel) == "dummy_udc.0"
 
 
-def test_no_controller(kernel: Path) -> None:
-    (kernel / "udc/fe980000.usb").rmdir()
-    with pytest.raises(SetupError, match="no USB device controller: run `sudo rotator setup usb-serial`, reboot"):
-        raised(kernel)
-
-
-def test_no_configfs(kernel: Path) -> None:
-    (kernel / "config/usb_gadget").rmdir()
-    with pytest.raises(SetupError, match="modprobe libcomposite"):
-        raised(kernel)
-
-
-def test_another_device_has_the_controller(kernel: Path) -> None:
-    other = kernel / "config/usb_gadget/mass_storage"
-    other.mkdir()
-    (other / "UDC").write_text("fe980000.usb\n")
-    with pytest.raises(SetupError, match=r"fe980000\.usb is taken by mass_storage"):
-        raised(kernel)
-    assert not (kernel / "config/usb_gadget/rotator").exists()
-
-
-def test_an_old_style_module_has_the_controller(kernel: Path) -> None:
-    (kernel / "udc/fe980000.usb/function").write_text("g_ether\n")
-    with pytest.raises(SetupError, match="taken by g_ether"):
-        raised(kernel)
-
-
 def test_a_kernel_that_refuses_leaves_nothing_behind(kernel: Path) -> None:
     # A folder where the kernel wants to be written to: the last step fails.
     (kernel / "config/usb_gadget/rotator/UDC").mkdir(parents=True)
     with pytest.raises(SetupError, match="cannot be"):
         raised(kernel)
+
+
+@pytest.mark.parametrize(
+    ("gone", "owner", "said"),
+    [
+        ("udc/fe980000.usb", "", "no USB device controller: run `sudo rotator setup usb-serial`, reboot"),
+        ("config/usb_gadget", "", "modprobe libcomposite"),
+        ("", "config/usb_gadget/mass_storage/UDC", r"fe980000\.usb is taken by mass_storage"),
+        ("", "udc/fe980000.usb/function", "taken by g_ether"),
+    ],
+)
+def test_a_controller_that_is_not_to_be_had(kernel: Path, gone: str, owner: str, said: str) -> None:
+    if gone:
+        (kernel / gone).rmdir()
+    if owner:
+        (kernel / owner).parent.mkdir(exist_ok=True)
+        (kernel / owner).write_text("g_ether\n" if owner.endswith("function") else "fe980000.usb\n")
+    with pytest.raises(SetupError, match=said):
+        raised(kernel)
+    assert not (kernel / "config/usb_gadget/rotator").exists()

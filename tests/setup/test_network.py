@@ -17,11 +17,13 @@ from rotator.config.load import SIMULATED, parse, profiles, shipped
 from rotator.exchange.sources import Source
 from rotator.links.addresses import addresses
 from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
-from rotator.setup.network import BEGIN, END, closed, open_to
+from rotator.setup.network import BLOCK as MARKS
+from rotator.setup.network import closed, open_to
 from rotator.setup.plan import SetupError
 from tests.setup.conftest import ROTATOR, Card
 
 PORT = 4533
+BEGIN, END = MARKS.begin, MARKS.end
 ANNOUNCED = "etc/avahi/services/rotator.service"
 BLOCK = f"""\
 {BEGIN}
@@ -59,23 +61,6 @@ def test_one_link_opens_and_the_rest_of_the_file_stays(with_avahi: Card) -> None
     assert "Browser    http://shack.local:8232" in said.text
 
 
-def test_it_is_shown_first_and_no_is_the_default(with_avahi: Card) -> None:
-    before = with_avahi.files()
-    said = with_avahi.setup("network", "--allow", "all", answer="\n")
-    assert said.code == 1
-    assert '+tcp = "0.0.0.0:4533"' in said.text
-    assert with_avahi.files() == before
-
-
-def test_the_way_back(with_avahi: Card) -> None:
-    before = with_avahi.files()
-    with_avahi.setup("network", "--allow", "192.168.1.0/24", "--yes")
-    assert with_avahi.setup("network", "--undo", "--yes").code == 0
-    assert with_avahi.files() == before
-    assert "Nothing to change" in with_avahi.setup("network", "--undo").text
-    assert [copy.name.split(".before")[0] for copy in with_avahi.copies()] == ["rotator.toml", "rotator.toml"]
-
-
 def test_another_network_takes_the_place_of_the_first(with_avahi: Card) -> None:
     with_avahi.setup("network", "--allow", "10.0.0.0/8", "--yes")
     with_avahi.setup("network", "--allow", "192.168.1.0/24", "--yes")
@@ -102,17 +87,7 @@ def test_a_card_without_name_and_avahi_leaves_the_address_open(card: Card) -> No
     said = card.setup("network", "--allow", "all", "--yes").text
     assert "On the PC, where ADDRESS is what `hostname -I` prints on the Pi:" in said
     assert "rotctl -m 2 -r ADDRESS:4533 p" in said
-
-
-def test_the_network_of_a_card_has_to_be_said(with_avahi: Card) -> None:
-    said = with_avahi.setup("network", "--yes")
-    assert said.code == 1
-    assert "no local network is known on this card: say which may with --allow 192.168.1.0/24" in said.text
-
-
-def test_without_avahi_it_says_what_to_do(card: Card) -> None:
-    said = card.setup("network", "--allow", "all", "--yes")
-    assert "sudo apt install avahi-daemon" in said.text
+    assert "sudo apt install avahi-daemon" in said
     assert not (card.root / ANNOUNCED).exists()
 
 
@@ -126,6 +101,7 @@ def test_a_file_without_rotctld_gets_one(card: Card) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
+        ((), "no local network is known on this card: say which may with --allow 192.168.1.0/24"),
         (("--allow", "192.168.1"), "--allow: "),
         (("--allow", "192.168.1.0"), "did you mean 192.168.1.0/24?"),
         (("--allow", "::1/64"), '"::1/64" is IPv6, and the box listens on IPv4'),
@@ -139,14 +115,6 @@ def test_what_cannot_be(card: Card, words: tuple[str, ...], said: str) -> None:
     assert card.files() == before
 
 
-def test_what_hinders_is_said_before_the_question(card: Card) -> None:
-    card.rotator.unlink()
-    said = card.setup("network", answer="1\ny\n")
-    assert said.code == 1
-    assert f"there is no {card.rotator}: say with --config" in said.text
-    assert "Who may" not in said.text
-
-
 def test_a_page_that_is_open_or_switched_off_stays(card: Card) -> None:
     for page in ('[page]\nlisten = "0.0.0.0:80"\n', "[page]\nenabled = false\n"):
         card.rotator.write_text(ROTATOR + page)
@@ -155,29 +123,25 @@ def test_a_page_that_is_open_or_switched_off_stays(card: Card) -> None:
         assert ("Browser" in said.text) is ("listen" in page)
 
 
-@pytest.mark.parametrize("page", ['page.listen = "127.0.0.1:99"\n', 'page = { listen = "127.0.0.1:99" }\n'])
-def test_a_page_without_a_heading_is_left_to_the_person(card: Card, page: str) -> None:
-    card.rotator.write_text(page + ROTATOR)
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('page.listen = "127.0.0.1:99"\n' + ROTATOR, 'write listen = "0.0.0.0:99" there, and run this again'),
+        ('page = { listen = "127.0.0.1:99" }\n' + ROTATOR, 'write listen = "0.0.0.0:99" there, and run this again'),
+        (
+            'link = [{ protocol = "rotctld", tcp = "127.0.0.1:99" }]\n',
+            'has no heading of its own here: write tcp = "0.0.0.0:99" there',
+        ),
+        (OPENED.replace(END, f"read_only = true\n{END}", 1), '"read_only = true" between the marks'),
+        (OPENED.replace(f"{END}\n", "", 1), "only one of the two marks"),
+    ],
+)
+def test_what_is_written_in_another_way_is_left_to_the_person(card: Card, text: str, said: str) -> None:
+    card.rotator.write_text(text)
     before = card.files()
-    said = card.setup("network", "--allow", "192.168.1.0/24", "--yes")
-    assert 'write listen = "0.0.0.0:99" there, and run this again' in said.text
-    assert card.files() == before
-
-
-def test_links_without_a_heading_are_left_to_the_person(card: Card) -> None:
-    card.rotator.write_text('link = [{ protocol = "rotctld", tcp = "127.0.0.1:99" }]\n')
-    before = card.files()
-    said = card.setup("network", "--allow", "192.168.1.0/24", "--yes")
-    assert 'has no heading of its own here: write tcp = "0.0.0.0:99" there' in " ".join(said.text.split())
-    assert card.files() == before
-
-
-def test_a_line_of_the_person_s_between_the_marks_stays(card: Card) -> None:
-    card.setup("network", "--allow", "all", "--yes")
-    card.rotator.write_text(card.rotator.read_text().replace(END, f"read_only = true\n{END}"))
-    before = card.files()
-    said = card.setup("network", "--undo", "--yes")
-    assert '"read_only = true" between the marks' in said.text
+    done = card.setup("network", "--allow", "192.168.1.0/24", "--yes")
+    assert done.code == 1
+    assert said in " ".join(done.text.split())
     assert card.files() == before
 
 
@@ -216,7 +180,7 @@ def test_every_shipped_file_opens_and_comes_back_to_the_byte(
 # --- the test from the PC
 
 
-SETTINGS = {"tcp": f"0.0.0.0:{PORT}", "allow": ["127.0.0.1", "192.168.1.0/24"]}
+SETTINGS: dict[str, object] = {"tcp": f"0.0.0.0:{PORT}", "allow": ["127.0.0.1", "192.168.1.0/24"]}
 
 
 class Box:
@@ -237,73 +201,55 @@ def box(tmp_path: Path) -> Iterator[Box]:
     made.monitor.close()
 
 
-def tells(box: Box, *lines: str) -> threading.Thread:
-    def show() -> None:
-        watcher, _ = box.monitor.accept()
-        watcher.sendall("".join(f"{line}\n" for line in lines).encode())
-        watcher.close()
-
-    shower = threading.Thread(target=show)
-    shower.start()
-    return shower
+PC, HERE = Source("rotctld", 2), Source("rotctld", 1)
+NOTE = encode_link(LinkNote("rotctld", SETTINGS))
+PEERS = (encode_peer(Peer(HERE, "127.0.0.1")), encode_peer(Peer(PC, "192.168.1.20")))
 
 
-@pytest.mark.parametrize("keys", [{"tcp": f"127.0.0.1:{PORT}"}, SETTINGS | {"allow": ["127.0.0.1", "10.0.0.0/8"]}])
-def test_a_box_with_the_old_settings_proves_nothing(box: Box, keys: dict[str, object]) -> None:
+def asks(who: Source, question: bytes = b"p\n") -> str:
+    return encode_piece(datetime.now(), who, Way.IN, question, text=True)
+
+
+def old(keys: dict[str, object]) -> tuple[str, ...]:
     """It answers the PC too, until it is started again."""
-    pc = Source("rotctld", 2)
-    asked = encode_piece(datetime.now(), pc, Way.IN, b"p\n", text=True)
-    lines = encode_link(LinkNote("rotctld", keys)), encode_peer(Peer(pc, "192.168.1.20")), asked
-    shower = tells(box, *lines)
-    with pytest.raises(SetupError, match="the running box has the old settings: start it again first"):
-        wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
-    shower.join()
+    return (encode_link(LinkNote("rotctld", keys)), *PEERS, asks(PC))
 
 
-def test_a_pc_that_may_not_is_no_success(box: Box, capsys: pytest.CaptureFixture[str]) -> None:
-    pc = Source("rotctld", 2)
-    asked = encode_piece(datetime.now(), pc, Way.IN, b"p\n", text=True)
-    shower = tells(box, encode_link(LinkNote("rotctld", SETTINGS)), encode_peer(Peer(pc, "10.9.9.9")), asked)
-    assert not wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
-    shower.join()
-    assert "10.9.9.9 has just asked, and is not in 192.168.1.0/24" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("question", [b"p\n", b"+p\n", b"\\get_pos\n", b"\\dump_state\np\n"])
-def test_the_first_question_is_told_with_the_address_of_the_pc(
-    box: Box, capsys: pytest.CaptureFixture[str], question: bytes
+@pytest.mark.parametrize(
+    ("lines", "works", "said"),
+    [
+        (old({"tcp": f"127.0.0.1:{PORT}"}), None, "the running box has the old settings: start it again first"),
+        (old(SETTINGS | {"allow": ["127.0.0.1", "10.0.0.0/8"]}), None, "the running box has the old settings"),
+        ((), None, "the box has ended"),
+        (
+            (NOTE, encode_peer(Peer(PC, "10.9.9.9")), asks(PC)),
+            False,
+            "10.9.9.9 has just asked, and is not in 192.168.1.0/24",
+        ),
+        *(
+            (
+                ("# rotator", NOTE, *PEERS, asks(PC, b"\\dump_state\n"), asks(HERE), asks(PC, question)),
+                True,
+                "\n192.168.1.20 has just asked for the position: it works.\n",
+            )
+            for question in (b"p\n", b"+p\n", b"\\get_pos\n", b"\\dump_state\np\n")
+        ),
+    ],
+)
+def test_what_the_first_question_of_a_pc_proves(
+    box: Box, capsys: pytest.CaptureFixture[str], lines: tuple[str, ...], works: bool | None, said: str
 ) -> None:
-    here, there = Source("rotctld", 1), Source("rotctld", 2)
-
     def show() -> None:
         watcher, _ = box.monitor.accept()
-        lines = [
-            "# rotator",
-            encode_link(LinkNote("rotctld", SETTINGS)),
-            encode_peer(Peer(here, "127.0.0.1")),
-            encode_peer(Peer(there, "192.168.1.20")),
-            encode_piece(datetime.now(), there, Way.IN, b"\\dump_state\n", text=True),
-            encode_piece(datetime.now(), here, Way.IN, b"p\n", text=True),
-            encode_piece(datetime.now(), there, Way.IN, question, text=True),
-        ]
         watcher.sendall("".join(f"{line}\n" for line in lines).encode())
         watcher.close()
 
     shower = threading.Thread(target=show)
     shower.start()
-    assert wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
-    shower.join()
-    said = capsys.readouterr().out.splitlines()
-    assert said[-1] == "192.168.1.20 has just asked for the position: it works."
-
-
-def test_a_box_that_ends_is_no_answer(box: Box) -> None:
-    def end() -> None:
-        watcher, _ = box.monitor.accept()
-        watcher.close()
-
-    shower = threading.Thread(target=end)
-    shower.start()
-    with pytest.raises(SetupError, match="the box has ended"):
-        wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
+    if works is None:
+        with pytest.raises(SetupError, match=said):
+            wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
+    else:
+        assert wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0) is works
+        assert said in capsys.readouterr().out
     shower.join()

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from rotator.assembly.station import Station
 from rotator.cli.main import cli
-from rotator.config.load import load, parse, profiles
+from rotator.config.load import load, parse
 from rotator.config.statements import statements
 from rotator.setup.machine import Machine
 from rotator.setup.new_file import for_the_service, new_file
@@ -62,7 +62,7 @@ def test_every_combination_of_answers_is_a_file_that_loads_and_means_them(data: 
     assert config.link[-1].allow == (None if answers["network"] == "here" else ["127.0.0.1", answers["network"]])
     rows = text.split("\n")
     for statement in statements(text):
-        if statement.keys and not statement.brackets:
+        if not statement.heads:
             about = rows[statement.line - 1], rows[statement.line - 2], rows[statement.last - 1]
             assert any("# " in row for row in about), rows[statement.line - 1]
 
@@ -71,10 +71,6 @@ def test_every_combination_of_answers_is_a_file_that_loads_and_means_them(data: 
 def test_each_rotor_runs_simulated(rotor: str, display: str) -> None:
     config = parse(new_file(answered({"rotor": rotor, "hardware": "sim", "display": display})), "new.toml")
     Station(config, time.monotonic, time.sleep).close()
-
-
-def test_every_shipped_rotor_can_be_chosen() -> None:
-    assert sorted(each.answer for each in ROTORS) == profiles()
 
 
 def test_every_question_has_a_word_of_help_and_offers_its_default() -> None:
@@ -133,10 +129,38 @@ def test_enter_all_the_way_writes_a_file(here: Path) -> None:
     assert f"# Written by `rotator config --ask` on {date.today().isoformat()}." in (here / "new.toml").read_text()
 
 
-def test_a_comma_is_a_point_and_what_was_understood_is_shown(here: Path) -> None:
-    done = config_ask("", "", "437,5", *[""] * 10)
-    assert "= 437.5" in done.output
-    assert load(here / "new.toml").azimuth.max_deg == 437.5
+@pytest.mark.parametrize(
+    ("lines", "shown", "written"),
+    [
+        (["", "", "437,5"], ["= 437.5"], "max_deg = 437.5"),
+        (["6", "b", "2"], [], 'type = "relay-pot"'),
+        (["1", "9", "Pi"], ['"9" is not in the list. Type a number from 1 to 2, or a name of'], 'hardware = "pi"'),
+        (
+            ["G-5500", "no", "", "", "pstrotator"],
+            ["= Yaesu G-5500", "= not yet: simulate it", "= PstRotator, SatPC32"],
+            'protocol = "gs232b"',
+        ),
+    ],
+)
+def test_what_was_understood_is_shown_and_written(here: Path, lines: list[str], shown: list[str], written: str) -> None:
+    done = config_ask(*lines, *[""] * 12)
+    assert all(each in done.output for each in shown)
+    assert written in (here / "new.toml").read_text()
+
+
+def test_a_name_is_the_default_of_the_first_question(here: Path) -> None:
+    config_ask(*[""] * 12, name=("servos",))
+    assert load(here / "new.toml").rotor.type == "servo"
+
+
+@pytest.mark.parametrize(("answer", "kept"), [("", True), ("y", False)])
+def test_a_file_that_is_there_stays_unless_the_person_says_so(here: Path, answer: str, kept: bool) -> None:
+    (here / "new.toml").write_text("# mine\n")
+    done = config_ask(*[""] * 8, answer, "")
+    assert ("nothing was written" in str(done.exception)) is kept
+    (mine,) = here.glob("new.toml" if kept else "new.toml.before-rotator-*")
+    assert mine.read_text() == "# mine\n"
+    assert kept or load(here / "new.toml").link
 
 
 def test_what_comes_next_is_named_in_the_order_in_which_it_is_done(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -147,31 +171,6 @@ def test_what_comes_next_is_named_in_the_order_in_which_it_is_done(here: Path, m
     places = [last.index(command) for command in commands]
     assert places == sorted(places)
     assert all(len(row) < 40 for row in last.splitlines())
-
-
-@pytest.mark.parametrize("typed", ["COM3", "wide"])
-def test_a_range_that_is_none_is_told_with_one_that_is(here: Path, typed: str) -> None:
-    done = config_ask("", "", "", typed, *[""] * 10)
-    said = " ".join(done.output.split())
-    assert f'"{typed}" is no number: type degrees from 20 to 200, such as 90' in said
-
-
-def test_back_asks_the_question_before_again(here: Path) -> None:
-    config_ask("6", "b", "2", *[""] * 12)
-    assert load(here / "new.toml").rotor.type == "relay-pot"
-
-
-def test_an_answer_that_is_none_is_said_and_asked_again(here: Path) -> None:
-    done = config_ask("1", "9", "Pi", *[""] * 12)
-    assert '"9" is not in the list. Type a number from 1 to 2, or a name of the list' in done.output
-    assert load(here / "new.toml").rotor.hardware == "pi"
-
-
-def test_a_name_is_echoed_as_the_line_of_the_list_that_it_means(here: Path) -> None:
-    done = config_ask("G-5500", "no", "", "", "pstrotator", *[""] * 8)
-    for shown in ("= Yaesu G-5500", "= not yet: simulate it", "= PstRotator, SatPC32"):
-        assert shown in done.output
-    assert load(here / "new.toml").link[0].protocol == "gs232b"
 
 
 def test_a_new_folder_is_made_only_when_the_person_has_read_of_it(here: Path) -> None:
@@ -195,30 +194,3 @@ def test_an_input_that_ends_writes_nothing(here: Path, count: int) -> None:
     assert done.exit_code == 1
     assert "nothing was written" in str(done.exception)
     assert list(here.iterdir()) == []
-
-
-def test_a_file_that_is_there_stays_unless_the_person_says_so(here: Path) -> None:
-    (here / "new.toml").write_text("# mine\n")
-    done = config_ask(*[""] * 12)
-    assert "nothing was written" in str(done.exception)
-    assert (here / "new.toml").read_text() == "# mine\n"
-
-
-def test_it_is_kept_beside_the_new_one(here: Path) -> None:
-    (here / "new.toml").write_text("# mine\n")
-    done = config_ask(*[""] * 8, "y")
-    assert done.exit_code == 0, done.output
-    (copy,) = here.glob("new.toml.before-rotator-*")
-    assert copy.read_text() == "# mine\n"
-    assert load(here / "new.toml").link
-
-
-def test_what_comes_next_names_the_file(here: Path) -> None:
-    done = config_ask("", "pi", "", "", "pst", "usb cable", "", "192.168.1.0/24", "", "")
-    for command in ("run", "doctor", "calibrate", "setup network", "setup usb-serial"):
-        assert f"rotator {command} --config new.toml\n" in done.output
-
-
-def test_a_name_is_the_default_of_the_first_question(here: Path) -> None:
-    config_ask(*[""] * 12, name=("servos",))
-    assert load(here / "new.toml").rotor.type == "servo"

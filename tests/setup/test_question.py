@@ -17,7 +17,7 @@ ASKED = {each.name: each for each in questions({"rotor": "g5500", "program": "gs
 @pytest.mark.parametrize(
     ("question", "typed", "meant"),
     [
-        ("rotor", "2", "f1efw"),
+        ("rotor", "3", "f1efw"),
         ("rotor", "G-5500", "g5500"),
         ("rotor", "yaesu g5500", "g5500"),
         ("rotor", "5500", "g5500"),
@@ -26,7 +26,11 @@ ASKED = {each.name: each for each in questions({"rotor": "g5500", "program": "gs
         ("rotor", "moteus", "isel"),
         ("rotor", "PCA9685", "servos"),
         ("rotor", "knob", "orbit360"),
-        ("rotor", "G-450A", "g5500"),
+        ("rotor", "SatNOGS v3", "satnogs"),
+        ("rotor", "TMC5160", "satnogs"),
+        ("rotor", "G-450A", "g450"),
+        ("rotor", "Yaesu G-1000DXA", "g1000"),
+        ("rotor", "Hy-Gain Ham IV", "ham4"),
         ("hardware", "y", "pi"),
         ("hardware", "no", "sim"),
         ("hardware", "Raspberry", "pi"),
@@ -55,10 +59,10 @@ def test_a_number_a_name_or_a_part_of_it(question: str, typed: str, meant: str) 
 @pytest.mark.parametrize(
     ("question", "typed", "said"),
     [
-        ("rotor", "360", '"360" may be 3 or 7: type the number'),
-        ("rotor", "pot", '"pot" may be 2 or 7: type the number'),
+        ("rotor", "360", '"360" may be 4 or 8: type the number'),
+        ("rotor", "pot", '"pot" may be 3 or 8: type the number'),
         ("rotor", "550", '"550" is not known'),
-        ("rotor", "8", '"8" is not known'),
+        ("rotor", "99", '"99" is not known'),
         ("rotor", "teapot 9", '"teapot 9" is not known. Type the number of one that measures'),
         ("rotor", "g5500x9", "is not known"),
         ("hardware", "sim9", '"sim9" is not in the list. Type a number from 1 to 2, or a name of the list'),

@@ -20,6 +20,34 @@ from tests.setup.conftest import Card
 TODAY = date(2026, 11, 21)
 
 
+@pytest.mark.parametrize("words", [("pins",), ("usb-serial",), ("network", "--allow", "192.168.1.0/24")], ids=str)
+def test_a_setup_is_shown_asked_done_once_and_taken_back(shipped: Card, words: tuple[str, ...]) -> None:
+    card = shipped
+    (card.root / "etc/avahi/services").mkdir(parents=True)
+    before = card.files()
+    said = card.setup(*words, answer="\n")
+    assert said.code == 1
+    assert "\n@@ " in said.text
+    assert "nothing was changed" in said.text
+    assert (card.files(), card.copies()) == (before, [])
+    assert card.setup(*words, answer="y\n").code == 0
+    after = card.files()
+    assert after != before
+    again = card.setup(*words)
+    assert (again.code, "Nothing to change" in again.text) == (0, True)
+    assert card.files() == after
+    kept = {copy.read_bytes() for copy in card.copies()}
+    assert kept <= set(before.values())
+    if words == ("pins",):  # the way back needs no configuration
+        card.rotator.unlink()
+    assert card.setup(words[0], "--undo", "--yes").code == 0
+    assert card.files() | {"etc/rotator/rotator.toml": before["etc/rotator/rotator.toml"]} == before
+    assert "Nothing to change" in card.setup(words[0], "--undo").text
+    assert list(card.root.glob("etc/systemd/system/*.d")) == []
+    assert {copy.name.split(".before-rotator-20")[0] for copy in card.copies()} <= {"config.txt", "rotator.toml"}
+    assert len(card.copies()) == 2 * len(kept)
+
+
 def test_new_changed_removed_and_linked(tmp_path: Path) -> None:
     old, gone = tmp_path / "old", tmp_path / "x.service.d" / "gone"
     old.write_text("before")

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 import tomllib
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.setup.pi import SHORT_NAMES, known
-from rotator.setup.usb_serial import BLOCK, boot_text
+from rotator.setup.pi import known
+from rotator.setup.usb_serial import boot_text, unit
 from tests.setup.conftest import BOOKWORM, Card
-from tests.setup.test_blocks import ANY_FILE
 
 ADDED = """\
 # rotator setup usb-serial: begin
@@ -44,62 +46,6 @@ def test_the_overlay_the_unit_and_the_link(shipped: Card) -> None:
     assert tomllib.loads(toml)["link"][1] == {"protocol": "gs232b", "serial": "/dev/ttyGS0"}
 
 
-def test_all_of_it_is_shown_first_and_no_is_the_default(card: Card) -> None:
-    before = card.files()
-    said = card.setup("usb-serial", answer="\n")
-    assert said.code == 1
-    assert f"+++ {card.boot}\n@@ -1,2 +1,6 @@\n+# rotator setup usb-serial: begin\n+[all]\n" in said.text
-    assert f"+++ {card.root}/{UNIT}" in said.text
-    assert '+serial = "/dev/ttyGS0"' in said.text
-    assert "nothing was changed" in said.text
-    assert card.files() == before
-    assert card.copies() == []
-
-
-def test_yes_at_the_question(card: Card) -> None:
-    assert card.setup("usb-serial", answer="y\n").code == 0
-    assert card.boot.read_text() == ADDED + BOOKWORM
-
-
-def test_a_second_run_changes_nothing_and_says_so(card: Card) -> None:
-    card.setup("usb-serial", "--yes")
-    before = card.files()
-    said = card.setup("usb-serial")
-    assert said.code == 0
-    assert "Nothing to change" in said.text
-    assert card.files() == before
-
-
-def test_a_copy_of_what_is_a_persons_own_is_kept(card: Card) -> None:
-    card.setup("usb-serial", "--yes")
-    card.setup("usb-serial", "--undo", "--yes")
-    names = [path.name for path in card.copies()]
-    config, again, toml, _ = names
-    assert config.startswith("config.txt.before-rotator-20")
-    assert again == f"{config}-2"
-    assert toml.startswith("rotator.toml.before-rotator-20")
-    assert (card.boot.parent / config).read_text() == BOOKWORM
-    assert (card.boot.parent / again).read_text() == ADDED + BOOKWORM
-
-
-def test_undo_leaves_the_card_as_it_was(shipped: Card) -> None:
-    before = shipped.files()
-    shipped.setup("usb-serial", "--yes")
-    said = shipped.setup("usb-serial", "--undo", "--yes")
-    assert said.code == 0
-    assert "-dtoverlay=dwc2,dr_mode=peripheral" in said.text
-    assert shipped.files() == before
-    assert list(shipped.root.glob("etc/systemd/system/*.d")) == []
-    assert "Nothing to change" in shipped.setup("usb-serial", "--undo").text
-
-
-def test_undo_leaves_what_the_person_has_changed_since(card: Card) -> None:
-    card.setup("usb-serial", "--yes")
-    card.boot.write_text("dtparam=spi=on\n" + card.boot.read_text() + "hdmi_force_hotplug=1\n")
-    card.setup("usb-serial", "--undo", "--yes")
-    assert card.boot.read_text() == "dtparam=spi=on\n" + BOOKWORM + "hdmi_force_hotplug=1\n"
-
-
 def test_a_link_that_the_person_has_changed_since_stays(card: Card) -> None:
     card.setup("usb-serial", "--yes")
     card.rotator.write_text(card.rotator.read_text().replace("gs232b", "gs232a"))
@@ -107,12 +53,6 @@ def test_a_link_that_the_person_has_changed_since_stays(card: Card) -> None:
     said = card.setup("usb-serial", "--undo", "--yes")
     assert "has been changed since" in said.text
     assert card.rotator.read_text() == changed
-
-
-@given(text=ANY_FILE)
-def test_any_config_txt_comes_back_byte_for_byte(text: str) -> None:
-    assert PI_4 is not None
-    assert BLOCK.without(boot_text(text, PI_4)) == text
 
 
 @given(data=st.data())
@@ -125,18 +65,21 @@ def test_other_peoples_lines_decide_nothing_unless_they_speak_of_the_port(data: 
     assert boot_text(text, PI_4) == ADDED + text
 
 
-@pytest.mark.parametrize("line", ["dtoverlay=dwc2", "dtoverlay=dwc2,dr_mode=otg", "dtoverlay=dwc2,dr_mode=peripheral"])
-def test_a_line_that_does_it_already_is_enough(card: Card, line: str) -> None:
-    card.boot.write_text(f"{BOOKWORM}{line}\n")
+@pytest.mark.parametrize(
+    ("lines", "added"),
+    [
+        ("dtoverlay=dwc2", ""),
+        ("dtoverlay=dwc2,dr_mode=otg", ""),
+        ("dtoverlay=dwc2,dr_mode=peripheral", ""),
+        ("[pi5]\ndtoverlay=dwc2", ADDED),
+        ("[pi4]\ndtoverlay=dwc2", ADDED),
+        ("[EDID=BNQ-BenQ]\ndtoverlay=dwc2", ADDED),
+    ],
+)
+def test_a_line_that_does_it_already_is_enough_unless_it_has_a_condition(card: Card, lines: str, added: str) -> None:
+    card.boot.write_text(f"{BOOKWORM}{lines}\n")
     assert card.setup("usb-serial", "--yes").code == 0
-    assert card.boot.read_text() == f"{BOOKWORM}{line}\n"
-
-
-@pytest.mark.parametrize("section", ["[pi5]", "[pi4]", "[EDID=BNQ-BenQ]"])
-def test_a_line_that_does_it_under_a_condition_is_not(card: Card, section: str) -> None:
-    card.boot.write_text(f"{BOOKWORM}{section}\ndtoverlay=dwc2\n")
-    card.setup("usb-serial", "--yes")
-    assert card.boot.read_text().startswith(ADDED)
+    assert card.boot.read_text() == f"{added}{BOOKWORM}{lines}\n"
 
 
 @pytest.mark.parametrize("line", ["otg_mode=1", "dtoverlay=dwc2,dr_mode=host", "dtoverlay=dwc-otg"])
@@ -148,11 +91,6 @@ def test_a_host_port_is_left_to_the_person(card: Card, line: str) -> None:
     assert f"makes the port a host (line 24, {line})" in said.text
     assert "put a # before that line" in said.text
     assert card.files() == before
-
-
-def test_a_compute_module_is_shipped_with_a_host_port(card: Card) -> None:
-    card.is_a("Raspberry Pi Compute Module 4 Rev 1.0")
-    assert "otg_mode=1 under [cm4]" in card.setup("usb-serial", "--yes").text
 
 
 @pytest.mark.parametrize(
@@ -194,9 +132,10 @@ def test_on_a_card_the_person_says_which_pi_takes_it(elsewhere: Card) -> None:
 
 
 def test_or_is_asked(elsewhere: Card) -> None:
-    said = elsewhere.setup("usb-serial", answer="1\ny\n")
+    said = elsewhere.setup("usb-serial", "--usb-id", "1209:0001", answer="1\ny\n")
     assert "Which Pi takes this card?\n   1  Zero 2 W\n" in said.text
     assert said.code == 0
+    assert "--up --usb-id 1209:0001\n" in (elsewhere.root / UNIT).read_text()
     assert elsewhere.boot.read_text() == ADDED + BOOKWORM
 
 
@@ -216,30 +155,28 @@ def test_without_a_pi_that_can_nothing_is_changed(elsewhere: Card, words: tuple[
     assert elsewhere.files() == before
 
 
-def test_the_boot_partition_beside_it_as_a_desktop_mounts_both(elsewhere: Card) -> None:
-    beside = elsewhere.root.parent / "bootfs"
-    beside.mkdir()
-    elsewhere.boot.rename(beside / "config.txt")
-    said = elsewhere.setup("usb-serial", "--pi", "5", "--yes")
-    assert said.code == 0, said.text
-    assert (beside / "config.txt").read_text() == ADDED + BOOKWORM
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ("../bootfs/config.txt", ""),  # beside it, as a desktop mounts both
+        ("away", "sudo mount /dev/sdX1 {root}/boot/firmware"),
+        ("config.txt", "is the card's boot partition"),
+    ],
+)
+def test_where_the_boot_partition_may_be(elsewhere: Card, place: str, said: str) -> None:
+    moved = elsewhere.root / place
+    moved.parent.mkdir(exist_ok=True)
+    elsewhere.boot.rename(moved)
+    done = elsewhere.setup("usb-serial", "--pi", "5", "--yes")
+    assert done.code == bool(said)
+    assert said.format(root=elsewhere.root) in done.text
+    assert moved.read_text() == ("" if said else ADDED) + BOOKWORM
 
 
-def test_a_boot_partition_that_is_not_mounted(elsewhere: Card) -> None:
-    elsewhere.boot.unlink()
-    said = elsewhere.setup("usb-serial", "--pi", "zero", "--yes")
-    assert f"sudo mount /dev/sdX1 {elsewhere.root}/boot/firmware" in said.text
-
-
-def test_the_wrong_one_of_the_two_partitions(elsewhere: Card) -> None:
-    (elsewhere.root / "config.txt").write_text(BOOKWORM)
-    elsewhere.boot.unlink()
-    assert "is the card's boot partition" in elsewhere.setup("usb-serial", "--pi", "zero", "--yes").text
-
-
-@pytest.mark.parametrize("short", SHORT_NAMES)
-def test_each_short_name_is_a_pi(short: str) -> None:
-    assert known(f"Raspberry Pi {SHORT_NAMES[short]} Rev 1.0") is not None
+def test_a_folder_that_is_no_card(card: Card) -> None:
+    card.boot.unlink()
+    shutil.rmtree(card.root / "etc")
+    assert "is this a Raspberry Pi's SD card?" in card.setup("usb-serial", "--yes").text
 
 
 # --- other programs on the port
@@ -271,24 +208,11 @@ def test_modules_that_are_no_gadget(card: Card) -> None:
     assert card.setup("usb-serial", "--yes").code == 0
 
 
-def test_the_older_place_of_config_txt(card: Card) -> None:
-    card.boot.rename(card.root / "boot/config.txt")
-    assert card.setup("usb-serial", "--yes").code == 0
-    assert (card.root / "boot/config.txt").read_text() == ADDED + BOOKWORM
-
-
 def test_the_newer_place_goes_before_the_older(card: Card) -> None:
     stub = card.write("boot/config.txt", "DO NOT EDIT THIS FILE\n")
     card.setup("usb-serial", "--yes")
     assert card.boot.read_text().startswith(ADDED)
     assert stub.read_text() == "DO NOT EDIT THIS FILE\n"
-
-
-def test_a_folder_that_is_no_card(card: Card) -> None:
-    card.boot.unlink()
-    shutil.rmtree(card.root / "etc")
-    said = card.setup("usb-serial", "--yes")
-    assert (said.code, "is this a Raspberry Pi's SD card?" in said.text) == (1, True)
 
 
 def test_a_link_that_is_there_stays_alone(card: Card) -> None:
@@ -309,12 +233,17 @@ def test_a_rotator_toml_that_cannot_be_added_to(card: Card, text: str | None) ->
     assert (card.rotator.read_text() if card.rotator.exists() else None) == text
 
 
-def test_another_identity(card: Card) -> None:
-    card.setup("usb-serial", "--yes", "--usb-id", "1209:0001")
-    assert "--up --usb-id 1209:0001\n" in (card.root / UNIT).read_text()
-
-
 @pytest.mark.parametrize("usb_id", ["1d6b", "1d6b:104", "x; reboot", ""])
 def test_an_identity_that_is_none(card: Card, usb_id: str) -> None:
     said = card.setup("usb-serial", "--yes", "--usb-id", usb_id)
     assert (said.code, 'such as "1d6b:0104"' in said.text) == (1, True)
+
+
+def test_systemd_finds_nothing_wrong(tmp_path: Path, need_program: Callable[[str, str], str]) -> None:
+    verify = need_program("systemd-analyze", "systemd")
+    path = tmp_path / "rotator-usb-serial.service"
+    path.write_text(unit("/bin/true", "1d6b:0104"))
+    done = subprocess.run([verify, "verify", str(path)], capture_output=True, text=True, timeout=60, check=False)
+    ours = [line for line in done.stderr.splitlines() if "rotator-usb-serial" in line and "modprobe" not in line]
+    assert ours == []
+    assert done.returncode == 0 or "modprobe" in done.stderr

@@ -10,6 +10,7 @@ import pytest
 
 from rotator.store.json_file import Form, JsonFile, decode, encode
 from rotator.store.json_file import number as within
+from tests.tables import every_row
 
 FORM = Form("rotator test")
 
@@ -24,7 +25,7 @@ def test_there_and_back() -> None:
     assert decode(FORM, text, number) == 5
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "reason"),
     [
         ("", "Expecting value"),
@@ -43,7 +44,6 @@ def test_there_and_back() -> None:
         ('{"format": "rotator test 1", "number": 5, "words": 5}', "has no attribute"),
         ("[" * 100_000, "has too many brackets inside each other"),
     ],
-    ids=lambda text: text[:40],
 )
 def test_whatever_is_wrong_is_one_kind_of_error_with_a_reason(text: str, reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
@@ -122,7 +122,7 @@ def test_a_number_within_its_bounds_is_taken(value: float) -> None:
     assert isinstance(found, float)
 
 
-@pytest.mark.parametrize("value", [1.999, 3.001, 10**400, -(10**400), float("nan"), True, "2.5", None, [2.5]])
+@every_row("value", [1.999, 3.001, 10**400, -(10**400), float("nan"), True, "2.5", None, [2.5]])
 def test_any_other_is_refused_in_a_short_sentence(value: object) -> None:
     with pytest.raises(ValueError, match=r"^the speed is .*; it must be a number from 2 to 3$") as refused:
         within(value, "the speed", 2.0, 3.0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -10,18 +9,6 @@ import pytest
 from rotator.store.plain import NoPlainFileError, read_plain
 
 NO_FILE = "is a device or a pipe, no file: save what it should hold in a file"
-
-
-def test_a_file_is_read_whole(tmp_path: Path) -> None:
-    (tmp_path / "link.toml").symlink_to(tmp_path / "station.toml")
-    (tmp_path / "station.toml").write_bytes(b"[rotor]\n" * 1000)
-    assert read_plain(tmp_path / "link.toml") == b"[rotor]\n" * 1000
-
-
-def test_a_pipe_without_a_writer_is_not_waited_for(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(NoPlainFileError, match=NO_FILE):
-        read_plain(tmp_path / "pipe")
 
 
 @pytest.mark.parametrize("device", ["/dev/zero", "/dev/null"])
@@ -45,10 +32,3 @@ def test_the_most_that_is_read(tmp_path: Path) -> None:
         read_plain(tmp_path / "a.toml")
     with pytest.raises(NoPlainFileError, match="more than 0 MB"):
         read_plain(tmp_path / "a.toml", 10)
-
-
-def test_a_folder_and_a_missing_file_are_told_apart(tmp_path: Path) -> None:
-    with pytest.raises(IsADirectoryError):
-        read_plain(tmp_path)
-    with pytest.raises(FileNotFoundError):
-        read_plain(tmp_path / "station.toml")

@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 
 from rotator.store.uploads import NotKeptError, Uploads, file_name
+from tests.tables import every_row
 
 
 def fine(_path: Path) -> Sequence[str]:
     return ()
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("said", "name"),
     [
         ("amateur.tle", "amateur.txt"),
@@ -30,7 +31,7 @@ def test_a_name_is_never_a_path_and_never_hidden(said: str, name: str) -> None:
     assert file_name(said) == name
 
 
-@pytest.mark.parametrize("said", ["", "...", "../..", "/", "☃☃"])
+@every_row("said", ["", "...", "../..", "/", "☃☃"])
 def test_a_name_without_a_letter_is_refused(said: str) -> None:
     with pytest.raises(NotKeptError, match="letters and digits"):
         file_name(said)

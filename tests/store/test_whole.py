@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.config.writing import replace
+from rotator.config.toml_text import replace
 from rotator.store.whole import BLOCK, write_block, write_whole
 
 

@@ -54,6 +54,7 @@ def assert_stands(box: Box) -> None:
     assert box.world.antenna() == pytest.approx(stood, abs=0.1)
 
 
+@pytest.mark.long
 @TURNS
 @MOMENTS
 @STOPS

@@ -48,11 +48,13 @@ def rise_deg() -> float:
     return target.sight(rise_s).azimuth_deg
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("before_s", [100.0, 600.0, 1150.0])
 def test_one_order_long_before_the_rise_goes_to_the_turn_of_the_pass(before_s: float) -> None:
     assert after(Aim(round(rise_deg(), 2), 0.0), before_s) == pytest.approx(25.0, abs=4.5)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("azimuth_deg", "elevation_deg", "before_s"),
     [
@@ -66,6 +68,7 @@ def test_any_other_order_goes_the_near_way(azimuth_deg: float, elevation_deg: fl
     assert after(Aim(azimuth_deg, elevation_deg), before_s) == pytest.approx(385.0, abs=5.5)
 
 
+@pytest.mark.long
 def test_a_satellite_that_is_not_in_use_is_looked_for_only_shortly_before_its_rise() -> None:
     order = Aim(round(rise_deg(), 2), 0.0)
     assert after(order, 600.0, in_use=False) == pytest.approx(385.0, abs=4.5)

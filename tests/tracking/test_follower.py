@@ -18,6 +18,7 @@ from rotator.runtime.client import Client
 from rotator.tracking.tracker import CLOCK_UNSURE
 from rotator.views.words import rise_or_set
 from tests.search import some
+from tests.tables import every_row
 from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
 
 FOLLOWS_ISS = """
@@ -35,6 +36,7 @@ def rise() -> Box:
     return Box(found.aos_s - 110.0, follow=FOLLOWS_ISS)
 
 
+@pytest.mark.long
 def test_it_sets_off_in_time_and_stands_waiting_15_s_before_the_rise(rise: Box) -> None:
     assert rise.loop.status.controlled_by == "", "not before it has to"
     rise.wait(94.0)
@@ -47,6 +49,7 @@ def test_it_sets_off_in_time_and_stands_waiting_15_s_before_the_rise(rise: Box) 
     assert rise.off_deg("iss") < 5.0
 
 
+@pytest.mark.long
 def test_after_a_start_it_rests_for_ten_minutes_for_a_link_may_have_stopped_the_antenna_before() -> None:
     found = pass_of("iss")
     assert found.aos_s is not None
@@ -110,6 +113,7 @@ def test_while_it_turns_to_a_pass_that_is_on_already_the_displays_count_to_its_s
     assert rise_or_set(status.flown, status.at_s).startswith("LOS ")
 
 
+@pytest.mark.long
 def test_when_a_person_has_given_the_antenna_back_the_plan_goes_on_at_once(rise: Box) -> None:
     rise.wait(100.0)
     rise.loop.post(PAGE, Take())
@@ -121,6 +125,7 @@ def test_when_a_person_has_given_the_antenna_back_the_plan_goes_on_at_once(rise:
     assert rise.loop.status.controlled_by == "track"
 
 
+@pytest.mark.long
 def test_where_an_angle_is_not_known_at_its_first_look_it_looks_again_soon() -> None:
     found = pass_of("iss")
     assert found.aos_s is not None
@@ -129,6 +134,7 @@ def test_where_an_angle_is_not_known_at_its_first_look_it_looks_again_soon() -> 
     assert late.loop.status.flown is not None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("wait_s", [5.0, 100.0])
 def test_a_direction_that_a_person_asks_for_is_kept_before_and_during_a_flight(rise: Box, wait_s: float) -> None:
     rise.wait(wait_s)
@@ -160,6 +166,7 @@ def asks(rise: Box, source: Source | None = None) -> str:
     return Operating(client, rise.tracker, source).do(Track("plan"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("words", ["moon", "180 45"])
 def test_a_request_for_the_plan_ends_other_tracking_and_the_next_pass_is_flown(rise: Box, words: str) -> None:
     assert rise.tracker.track(words) == ""
@@ -174,6 +181,7 @@ def test_a_request_for_the_plan_ends_other_tracking_and_the_next_pass_is_flown(r
     assert rise.loop.status.flown.name.startswith("ISS")
 
 
+@pytest.mark.long
 def test_a_flight_that_no_plan_has_replaced_yet_ends_too(rise: Box) -> None:
     rise.tracker.track("moon")
     rise.wait(5.0)
@@ -194,6 +202,7 @@ def test_a_second_request_for_the_plan_leaves_its_flight_alone(rise: Box) -> Non
     assert rise.loop.status.flown is not None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("source", [None, PAGE])
 def test_a_request_for_the_plan_ends_its_rest(rise: Box, source: Source | None) -> None:
     rise.loop.post(source or PC, Aim(100.0, 10.0))
@@ -252,8 +261,11 @@ def test_while_the_clock_may_be_wrong_nothing_moves(rise: Box) -> None:
     assert rise.loop.status.controlled_by == ""
 
 
-@pytest.mark.parametrize("into_s", [-10.0, 120.0])
-@pytest.mark.parametrize("by_s", [-86_400.0, -3600.0, -600.0, -10.0, 10.0, 300.0, 3600.0, 86_400.0])
+@pytest.mark.long
+@every_row(
+    ("into_s", "by_s"),
+    [(-10.0, -86_400.0), (120.0, -600.0), (-10.0, -10.0), (120.0, 10.0), (-10.0, 300.0), (120.0, 3600.0)],
+)
 def test_where_the_clock_is_set_during_a_flight_the_plan_of_the_new_time_is_flown(into_s: float, by_s: float) -> None:
     """Before the rise and in the pass. Where nothing is up at the new time the antenna stands."""
     found = pass_of("iss")
@@ -304,6 +316,7 @@ def test_a_pass_of_old_elements_is_flown_with_a_warning_in_the_log_and_on_the_di
     assert "more than half of the beam of 20°" in caplog.text
 
 
+@pytest.mark.long
 def test_the_error_to_expect_counts_the_clock(rise: Box) -> None:
     errors_deg = []
     for rise.clock_error_s in (0.0, 30.0):

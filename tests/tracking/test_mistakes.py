@@ -42,6 +42,7 @@ def planner() -> Iterator[ProcessPlanner]:
     planner.close()
 
 
+@pytest.mark.long
 def test_a_plan_that_fails_in_its_process_is_logged_and_the_next_one_is_made(planner: ProcessPlanner) -> None:
     antenna, now = build_antenna(Config()), Now(FEBRUARY_S, UP_S)
     with pytest.raises(RuntimeError, match="the plan could not be made"):
@@ -70,6 +71,7 @@ def comes(box: Box, what: Callable[[], bool]) -> bool:
     return False
 
 
+@pytest.mark.long
 def test_the_thread_outlives_a_mistake_of_the_program(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     box = Box(FEBRUARY_S)
     known, planner = box.known, FailsOnce()

@@ -10,6 +10,7 @@ import pytest
 from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.tracking.known_sky import KnownSky
+from tests.tables import every_row
 from tests.tracking.tracked_box import ELEMENTS, FEBRUARY_S, Box, pass_of
 
 
@@ -46,7 +47,7 @@ def test_what_is_in_no_file_is_refused_after_one_look(folder: Path) -> None:
     assert box.tracker.track("nothing-1") != "", "no file is new"
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("words", "said"),
     [
         ("foo", 'there is no target "foo"'),
@@ -65,6 +66,7 @@ def test_without_a_place_a_direction_is_known() -> None:
     assert KnownSky(None, Catalogue(())).find("180 45") == Aim(180.0, 45.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("left", [None, "", "<html>", "ISS\n1 25544U 98067A"])
 @pytest.mark.parametrize("by_s", [3.0, 86_400.0])
 def test_where_the_file_goes_or_breaks_its_tracked_satellite_is_tracked_on(

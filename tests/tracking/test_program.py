@@ -28,6 +28,7 @@ def off_deg(box: Box, row: int) -> float:
     return great_circle_deg(*box.world.antenna(), *ROWS[row][1:])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("utc", [False, True])
 def test_it_waits_at_the_first_row_and_is_at_each_row_in_time(box: Box, utc: bool) -> None:
     assert box.tracker.program(table(box.utc_s if utc else 0.0, utc=utc)) == ""
@@ -105,6 +106,7 @@ def refused(box: Box, how: str) -> str:
 WALL = '[[mount.forbidden]]\nname = "mast"\nazimuth_deg = [352, 359]\nelevation_deg = [0, 90]\n'
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("how", [PAST, WALLED])
 @pytest.mark.parametrize("first", ["table", "iss"])
 def test_a_refused_request_keeps_what_was_tracked(first: str, how: str) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotator.tracking.ranking import MOST, ranked
+from tests.tables import every_row
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("written", "expected"),
     [
         ([10, 1, 5], [10, 5, 1]),

@@ -15,6 +15,7 @@ from rotator.orbits.celestial import Body
 from rotator.tracking.next_flight import target_path
 from rotator.tracking.planned import Flight, Followed, PlannedPass
 from rotator.tracking.schedule import schedule
+from tests.tables import every_row
 from tests.tracking.arcs import (
     AZIMUTH_DPS,
     BERLIN,
@@ -59,6 +60,7 @@ def planned(request: pytest.FixtureRequest) -> tuple[Mount, tuple[PlannedPass, .
     return mount, schedule(followed, antenna(mount), EPOCH_S, EPOCH_S + DAY_S)
 
 
+@pytest.mark.long
 def test_the_antenna_stands_waiting_15_s_before_each_flight(planned: tuple[Mount, tuple[PlannedPass, ...]]) -> None:
     """At the motors' speed; from where the flight before left it, as the target itself tells."""
     mount, plan = planned
@@ -125,6 +127,7 @@ def in_sight(mount: Mount, name: str, at_s: float) -> bool:
     return sight.elevation_deg > mount.horizon_deg(sight.azimuth_deg) and not beside
 
 
+@pytest.mark.long
 def test_a_flight_is_planned_on_the_turn_that_the_plan_of_many_has_chosen(
     planned: tuple[Mount, tuple[PlannedPass, ...]],
 ) -> None:
@@ -195,7 +198,7 @@ def test_a_short_overlap_costs_the_end_of_one_or_the_beginning_of_the_other() ->
     assert first.end_s - first.begin_s + second.end_s - second.begin_s > 1200 - 120 - 15 - 20
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("followed", "reason"),
     [
         (Followed(Arc("low", EPOCH_S + 600, 600, 90, 90, 12), 1, 20), "culminates at 12°, below the 20° asked"),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from hw.ports import AngleSource, Axis
 from rotator.exchange.flight_order import AxisPlan, Fly
 from rotator.exchange.orders import (
@@ -34,6 +32,7 @@ from rotator.tracking.tracked import (
     Tracked,
     ends_tracking,
 )
+from tests.tables import every_row
 
 UTC_S = 1_739_000_000.0
 PERSON = Source("console", 1)
@@ -81,7 +80,7 @@ def test_after_an_end_no_earlier_tracking_comes_back() -> None:
     assert asked("moon", over).cannot_be_planned("it never rises").text(status(10.0)) == "ended: it never rises"
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("order", "said"),
     [
         (Stop(), "stopped it"),
@@ -104,12 +103,12 @@ def test_a_release_ends_it_only_where_it_released_something() -> None:
     assert ends_tracking(Release(), status(0.0, latched="panel"))
 
 
-@pytest.mark.parametrize("order", [Aim(10.0, 20.0), Take(stops=False), GiveBack(), Park(), Home(Axis.AZIMUTH)])
+@every_row("order", [Aim(10.0, 20.0), Take(stops=False), GiveBack(), Park(), Home(Axis.AZIMUTH)])
 def test_all_others_do_not(order: Order) -> None:
     assert not ends_tracking(order, status(0.0, latched="panel"))
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("seen", "reason"),
     [
         (status(TAKES_EFFECT_S - 0.1, "rotctld#1"), ""),

@@ -27,6 +27,7 @@ def rise() -> Box:
     return Box(begin - 180.0)
 
 
+@pytest.mark.long
 def test_it_waits_where_the_satellite_rises_and_follows_it_to_its_set_and_goes_on_to_the_next(rise: Box) -> None:
     assert rise.tracker.track("iss") == ""
     assert rise.tracker.state == "planning"
@@ -56,6 +57,7 @@ def test_it_waits_where_the_satellite_rises_and_follows_it_to_its_set_and_goes_o
     assert len(rise.planner.plans) == 2
 
 
+@pytest.mark.long
 def test_a_plan_of_long_ago_is_made_again_before_its_pass(rise: Box) -> None:
     """Newer elements may have come meanwhile, and a person may have turned the antenna by hand."""
     early = Box(rise.utc_s - 600.0)
@@ -87,6 +89,7 @@ def test_after_a_stop_it_has_ended_at_once_and_not_only_when_its_thread_has_its_
     assert rise.tracker.state == "ended: console#1 stopped it"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("source", "order"),
     [
@@ -205,6 +208,7 @@ def test_after_a_fault_a_program_that_took_the_antenna_keeps_it(rise: Box) -> No
     assert rise.loop.status.controlled_by == str(PC)
 
 
+@pytest.mark.long
 def test_a_direction_that_the_rotor_cannot_reach_is_refused_and_the_flight_goes_on() -> None:
     begin = pass_of("iss").aos_s
     assert begin is not None
@@ -230,6 +234,7 @@ def test_off_stops_the_antenna(rise: Box) -> None:
     assert not rise.loop.status.latched
 
 
+@pytest.mark.long
 def test_what_is_called_tracked_is_what_the_status_shows(rise: Box) -> None:
     shown = None
     for words, name in (("iss", "ISS"), ("moon", "Moon"), ("iss", "ISS")):
@@ -329,6 +334,7 @@ def test_while_the_clock_may_be_wrong_no_satellite_is_flown(up: Box) -> None:
 AT_THE_EQUATOR = Site(0.0, 13.0)
 
 
+@pytest.mark.long
 def test_before_a_rise_the_antenna_takes_the_turn_that_the_whole_pass_needs() -> None:
     """SO-50 rises at 8° and sets at 127°: an antenna that comes from 320° would follow it on the upper turn, which
     ends at 90°."""

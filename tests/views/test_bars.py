@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import itertools
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.views.axis_rows import FORBIDDEN, OVERLAP, PARTS, Bar, forbidden, overlap
+from tests.tables import every_row
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("angle_deg", "shown"),
     [
         (None, "        "),
@@ -56,7 +56,7 @@ def test_a_narrow_sector_is_marked_and_a_wide_one_has_its_name() -> None:
     assert "▒the chimney▒" in wide.filled_to(None, "", names=True).plain
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("low_deg", "high_deg", "cells", "labels"),
     [
         (0.0, 450.0, 48, ["0", "90", "180", "270", "360", "450"]),

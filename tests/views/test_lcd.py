@@ -11,12 +11,13 @@ from hypothesis import strategies as st
 
 from hw.moteus.faults import LIMITS
 from hw.ports import Axis, Direction
-from rotator.control.axis.endurance import Endurance
+from rotator.control.axis.run_permit import Endurance
 from rotator.control.axis.switched import BLIND
 from rotator.exchange.faults import Fault, FaultKind, Missing, Notice
 from rotator.exchange.orders import Mode
 from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.views.lcd import rows
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 POT_OPEN = Fault(FaultKind.POT_OPEN, AZ, "0.001", "0.02 to 0.98")
@@ -79,7 +80,7 @@ def test_the_panel_s_mode_is_a_letter_and_a_notice_where_programs_are_not_obeyed
     assert rows(manual, 2.5) == ("MODE MANUAL     ", "ANT A:231 E:024M")
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "shown"),
     [
         (0.0, "000"),
@@ -102,7 +103,7 @@ def test_azimuth_is_a_compass_bearing_also_in_the_overlap(azimuth_deg: float, sh
     )
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("elevation_deg", "shown"),
     [(0.0, "000"), (-0.2, "000"), (24.5, "025"), (90.0, "090"), (155.0, "155"), (180.0, "180"), (-5.0, "-05")],
 )
@@ -128,7 +129,7 @@ def test_several_notices_take_turns() -> None:
 # --- every fault and every notice there is
 
 
-@pytest.mark.parametrize("kind", FaultKind, ids=lambda kind: kind.text)
+@every_row("kind", FaultKind)
 def test_every_fault_fits_beside_its_axis(kind: FaultKind) -> None:
     assert uppers(with_axis(AZ, fault=Fault(kind, AZ, "")), 4)[2] == f"AZ {kind.lcd}"
 
@@ -153,7 +154,7 @@ NOTICES = [
 ]
 
 
-@pytest.mark.parametrize("notice", NOTICES, ids=str)
+@every_row("notice", NOTICES)
 def test_every_notice_fits(notice: Notice) -> None:
     assert notice.lcd
     assert uppers(with_axis(EL, notices=(notice,)), 4)[2] == f"EL {notice.lcd}"

@@ -13,6 +13,7 @@ from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.exchange.status import AxisStatus, Status
 from rotator.views.sky_plot import ANTENNA, BOTH, TARGET, Trail, off_deg, plot
 from tests.search import examples
+from tests.tables import every_row
 
 COLUMNS, ROWS = 61, 31
 STATUS = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
@@ -33,7 +34,7 @@ def place(mark: str, status: Status) -> tuple[int, int]:
     return column, row
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "elevation_deg", "side"),
     [
         (0.0, 10.0, (0, -1)),
@@ -45,7 +46,6 @@ def place(mark: str, status: Status) -> tuple[int, int]:
         (123.0, 90.0, (0, 0)),
         (0.0, -5.0, (0, -1)),
     ],
-    ids=["north", "east", "south", "west", "east, a turn on", "over the top", "zenith", "below the horizon"],
 )
 def test_north_is_up_and_east_is_right(azimuth_deg: float, elevation_deg: float, side: tuple[int, int]) -> None:
     column, row = place(ANTENNA, at(azimuth_deg, elevation_deg))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import replace
 from typing import Any
@@ -10,6 +11,7 @@ import pytest
 
 from hw.ports import AngleSource, Axis, Direction
 from rotator.links.wire import Wire
+from tests.tables import every_row
 from tests.views.screens import (
     ASLEEP,
     AZIMUTH,
@@ -140,8 +142,8 @@ def test_where_to_connect_stays_readable_while_links_are_busy(wires: list[Wire])
     assert picture.count(r"EL=024\r\n ") == 2
 
 
-@pytest.mark.parametrize(("columns", "rows"), SIZES)
-@pytest.mark.parametrize("state", ["tracking", "both faulted and stopped"])
+@every_row(("columns", "rows"), SIZES)
+@every_row("state", ["tracking", "both faulted and stopped"])
 def test_a_link_that_is_out_is_named_at_every_size(columns: int, rows: int, state: str) -> None:
     """In the table where all links have room, in a line of its own elsewhere."""
     gone = Wire("usb", "gs232b", "/dev/ttyUSB0", "waiting for it")
@@ -201,8 +203,8 @@ def test_log_keys_and_whether_it_is_simulated() -> None:
         assert key in picture
 
 
-@pytest.mark.parametrize("size", [(40, 12), (60, 16), (80, 24), (200, 50)])
-@pytest.mark.parametrize("drive", Direction)
+@every_row("size", [(40, 12), (60, 16), (80, 24), (200, 50)])
+@every_row("drive", Direction)
 def test_what_an_angle_is_worth_stands_beside_the_lamps(size: tuple[int, int], drive: Direction) -> None:
     """An angle that was last seen is never called measured, whichever relay is on; a healthy one says its source."""
     out = replace(BOTH_OUT, azimuth=replace(BOTH_OUT.azimuth, drive=drive))
@@ -213,3 +215,12 @@ def test_what_an_angle_is_worth_stands_beside_the_lamps(size: tuple[int, int], d
     for source in AngleSource:
         healthy = replace(STATUS, azimuth=replace(STATUS.azimuth, drive=drive, source=source))
         assert re.search(rf"{source.value[:4]}", show(healthy, size=size))
+
+
+@every_row("size", [(40, 12), (60, 16), (80, 24), (200, 50)])
+def test_an_angle_that_is_reckoned_by_time_says_so_and_how_far_it_may_be_off(size: tuple[int, int]) -> None:
+    azimuth = replace(STATUS.azimuth, source=AngleSource.MODELLED, angle_deg=137.04, error_deg=5.3)
+    picture = show(replace(STATUS, azimuth=azimuth), size=size)
+    assert "≈137.0°" in picture
+    assert "± 6°" in picture
+    assert "± ?" in show(replace(STATUS, azimuth=replace(azimuth, error_deg=math.inf)), size=size)

@@ -6,7 +6,6 @@ import re
 from dataclasses import replace
 from typing import Any
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.text import Text
@@ -19,6 +18,7 @@ from rotator.links.wire import Wire
 from rotator.views import frame, terminal
 from rotator.views.words import release
 from tests.search import examples
+from tests.tables import every_row
 from tests.views.screens import BUSY, GLASS, LOG, SIZES, STATES, STATUS, on_screen, row, show
 
 CHIMNEY = Sector("the chimney", Range(100.0, 130.0), Range(0.0, 40.0), 2.0)
@@ -28,8 +28,8 @@ MOUNT = Mount(Range(0.0, 450.0), Range(0.0, 180.0), horizon=((0.0, 5.0), (180.0,
 # --- every size, every state
 
 
-@pytest.mark.parametrize(("columns", "rows"), SIZES)
-@pytest.mark.parametrize("state", STATES)
+@every_row(("columns", "rows"), SIZES)
+@every_row("state", STATES)
 def test_keys_stop_faults_and_angles_are_there(columns: int, rows: int, state: str) -> None:
     status = STATES[state]
     for typed in ("", "> resume_  Enter does it"):
@@ -121,7 +121,7 @@ def test_a_high_terminal_gains_the_sky_below_and_more_of_the_log() -> None:
     assert show(log=LOG, size=(80, 60)).count("refused") > show(log=LOG, size=(80, 40)).count("refused")
 
 
-@pytest.mark.parametrize("size", SIZES)
+@every_row("size", SIZES)
 def test_plain_characters_have_the_same_places(size: tuple[int, int]) -> None:
     around: dict[str, Any] = {"mount": MOUNT, "trail": [(0.0, 0.0), (10.0, 30.0)]}
     fine, plain = (show(STATUS, BUSY, size=size, ascii_only=only, **around) for only in (False, True))

@@ -14,6 +14,7 @@ from rotator.protocols.console_session import report
 from rotator.views.lcd import rows as lcd_rows
 from rotator.views.plain_lines import line
 from rotator.views.words import headline, orders_from, release
+from tests.tables import every_row
 from tests.views.screens import ASLEEP, show
 
 
@@ -38,7 +39,7 @@ def test_recognised_in_a_programs_orders_or_tracked_by_the_box(
     assert now.recognised == ("ISS" if recognised else "")
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("kind", "passing", "latched", "says"),
     [
         (None, False, "", ""),
@@ -60,8 +61,8 @@ def test_the_way_on_promises_no_motion_that_resume_does_not_give(
     assert release(replace(ASLEEP, azimuth=replace(ASLEEP.azimuth, fault=fault), latched=latched)) == says
 
 
-@pytest.mark.parametrize("size", [(40, 12), (80, 24), (200, 50)])
-@pytest.mark.parametrize(
+@every_row("size", [(40, 12), (80, 24), (200, 50)])
+@every_row(
     ("axis", "speed_dps", "says"), [(Axis.AZIMUTH, -5.94, "TURNS CCW 5.9°/s"), (Axis.ELEVATION, 2.0, "TURNS UP 2.0°/s")]
 )
 def test_an_antenna_that_turns_by_itself_shows_at_a_glance(
@@ -79,7 +80,7 @@ def test_an_antenna_that_turns_by_itself_shows_at_a_glance(
 STANDS = Status(100.0, AxisStatus(0, 450, 231.0), AxisStatus(0, 180, 24.0), controlled_by="track")
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("begin_s", "end_s", "said"),
     [
         (300.0, 900.0, "tracks ISS, AOS 3:20"),

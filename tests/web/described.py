@@ -13,10 +13,10 @@ from typing import Any
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
-from rotator.config import form
+from rotator.config import keys
 
 JSON = "application/json"
-WORDS = sorted({word for table in form.tables() for word in (*table["path"], *(key["key"] for key in table["keys"]))})
+WORDS = sorted({word for table in keys.forms() for word in (*table["path"], *(key["key"] for key in table["keys"]))})
 """A text at random meets no key of the file: some are these."""
 ANY_CHARACTERS = st.text(st.characters(codec=None, exclude_categories=()), max_size=30)
 ANYTHING: st.SearchStrategy[Any] = st.recursive(

@@ -8,6 +8,7 @@ import json
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -41,6 +42,7 @@ def requests(told: Described, *left_out: str) -> st.SearchStrategy[tuple[str, by
     )
 
 
+@pytest.mark.long
 async def test_no_body_moves_or_changes_anything_for_one_who_is_not_paired(page_box: Start, file: Path) -> None:
     def search(box: Box, told: Described) -> None:
         routes = dict(told.routes("post"))

@@ -48,6 +48,7 @@ async def asked(box: Box, way: str, path: str, **more: Any) -> tuple[int, str, b
             await asyncio.sleep(0.05)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("more", ["", FOLLOWS], ids=["bare", "with a sky"])
 async def test_every_answer_is_as_described(page_box: Start, file: Path, tmp_path: Path, more: str) -> None:
     flown = FlownPass(picture_name("ISS", 1.7e9), "ISS", 1.7e9, 1.7e9 + 600, 0.4, 1.2, None)
@@ -105,6 +106,7 @@ async def test_what_a_socket_sends_is_described_in_words_and_the_picture_by_its_
                 told.answers("/api/me", message["hello"])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("reading", ["open", "paired"])
 async def test_who_may_ask_is_as_described(page_box: Start, reading: str) -> None:
     async with page_box(page=f'reading = "{reading}"') as box:

@@ -26,6 +26,7 @@ from rotator.monitor.transcript import Way, encode_piece
 from rotator.web.diagnostics import Known, diagnostics
 from rotator.web.help_api import doctor
 from rotator.web.redaction import REMOVED, Redaction, secrets_of, spellings_of_place
+from tests.tables import every_row
 from tests.web.conftest import PATIENCE_S, Box
 
 STATUS = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
@@ -146,6 +147,7 @@ def test_the_place_is_coarse_and_browsers_have_no_names() -> None:
     assert texts["rotator/log.txt"].endswith("page: page#1 is paired\n")
 
 
+@pytest.mark.long
 async def test_a_paired_browser_downloads_it_whole(box: Box, tmp_path: Path) -> None:
     assert (await box.get("diagnostics"))[0] == 401
     await box.pair("Anna's phone")
@@ -166,7 +168,7 @@ async def test_a_paired_browser_downloads_it_whole(box: Box, tmp_path: Path) -> 
         assert secret not in str(texts)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("text", "left"),
     [
         ("https://sky.example/gp.php?GROUP=amateur: 95 satellites", "https://sky.example/…: 95 satellites"),
@@ -194,6 +196,7 @@ async def examined(box: Box) -> dict[str, Any]:
     return answer[1]
 
 
+@pytest.mark.long
 async def test_everyone_who_may_look_reads_the_checks(box: Box) -> None:
     told = await examined(box)
     checks = {check["name"]: check for check in told["checks"]}

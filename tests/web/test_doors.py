@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
-from rotator.web.doors import Doors
+from rotator.web.entrance import Doors
+from tests.tables import every_row
 
 DOORS = Doors(["shack-pi", "rotator", "antenna.example.net"])
 OURS = (
@@ -20,15 +19,13 @@ PRIVATE = ("127.0.0.1", "::1", "192.168.178.20", "10.1.2.3", "fd00::5", "::ffff:
 INTERNET = ("8.8.8.8", "2001:db8::1", "172.32.0.1", "", "no address", "::ffff:8.8.8.8")
 
 
-@pytest.mark.parametrize(("host", "known"), [*((each, True) for each in OURS), *((each, False) for each in FOREIGN)])
+@every_row(("host", "known"), [*((each, True) for each in OURS), *((each, False) for each in FOREIGN)])
 def test_the_box_knows_its_names_and_every_number_and_no_foreign_name(host: str, *, known: bool) -> None:
     """A foreign name may point at the box."""
     assert DOORS.knows(host) is known
 
 
-@pytest.mark.parametrize(
-    ("address", "comes_in"), [*((each, True) for each in PRIVATE), *((each, False) for each in INTERNET)]
-)
+@every_row(("address", "comes_in"), [*((each, True) for each in PRIVATE), *((each, False) for each in INTERNET)])
 def test_private_networks_come_in_and_the_internet_does_not(address: str, *, comes_in: bool) -> None:
     assert DOORS.lets_in(address) is comes_in
 
@@ -38,7 +35,7 @@ def test_the_file_may_say_otherwise() -> None:
     assert [doors.lets_in(each) for each in ("192.168.1.20", "192.168.1.21", "127.0.0.1")] == [True, False, False]
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("origin", "site", "may"),
     [
         (None, None, True),

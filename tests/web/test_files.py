@@ -5,9 +5,8 @@ from __future__ import annotations
 import hashlib
 import re
 
-import pytest
-
 from rotator.web import assets
+from tests.tables import every_row
 
 FILES = assets.load()
 OURS = sorted(path for path in FILES if "/vendor/" not in path and path != "/")
@@ -17,7 +16,7 @@ def test_all_of_it_compressed_is_below_100_kib() -> None:
     assert sum(len(asset.packed) for path, asset in FILES.items() if path != "/") <= 100 * 1024
 
 
-@pytest.mark.parametrize("path", OURS)
+@every_row("path", OURS)
 def test_nothing_is_loaded_from_elsewhere(path: str) -> None:
     text = FILES[path].plain.decode()
     named = [
@@ -28,7 +27,7 @@ def test_nothing_is_loaded_from_elsewhere(path: str) -> None:
     assert [url for url in named if "://" in url] == []
 
 
-@pytest.mark.parametrize("path", [path for path in OURS if path.endswith((".js", ".html"))])
+@every_row("path", [path for path in OURS if path.endswith((".js", ".html"))])
 def test_what_a_file_names_is_there(path: str) -> None:
     text = FILES[path].plain.decode()
     for name in re.findall(r'(?:from|src=|href=)\s*"(/[^"#]*)"', text):

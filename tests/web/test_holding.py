@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Jog
-from rotator.web.holding import LEASE_S, Holding, Pictures
+from rotator.web.live import LEASE_S, Holding, Pictures
 
 
 class Desk:
@@ -73,20 +73,6 @@ def test_a_number_that_was_never_sent_turns_nothing() -> None:
         assert desk.button.sign("cw", 1, number, 100.3)
     assert desk.orders == []
     assert all(0 <= number < 2**53 for number in seen), "JavaScript holds them exactly"
-
-
-def test_a_browser_that_sees_no_picture_any_more_cannot_turn_on_by_counting() -> None:
-    """It goes on with the numbers that would follow: what was seen last is the end of the turn."""
-    desk = Desk()
-    last = desk.pictures.next(100.0)
-    turned_until_s = 100.0
-    for step in range(1, 50):
-        now_s = 100.0 + step * 0.1
-        desk.pictures.next(now_s)
-        desk.orders.clear()
-        desk.button.sign("cw", 1, last + step, now_s)
-        turned_until_s = max(turned_until_s, *(now_s + (jog.seconds or 0.0) for jog in desk.orders), 0.0)
-    assert turned_until_s == 100.0
 
 
 def test_a_press_that_was_lost_for_a_moment_does_not_go_on_by_itself() -> None:

@@ -180,6 +180,7 @@ async def press(box: Box, path: str, values: object = None) -> None:
         assert (await Box(box.app, box.world, box.url, person, box.anew).post(path, values))[0] == 200
 
 
+@pytest.mark.quiet
 async def test_a_reader_that_takes_nothing_is_dropped_and_the_others_see_on(box: Box) -> None:
     """Its own queue is as short as its system lets it be."""
     async with box.http.ws_connect(f"{box.url}/api/live") as looker:

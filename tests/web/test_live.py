@@ -19,6 +19,8 @@ from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from rotator.web.live import MOST_SIGNS_PER_S, MOST_WATCHERS, Live
 from tests.web.conftest import OFF, PATIENCE_S, Box, with_box
 
+pytestmark = pytest.mark.quiet
+
 SURE_S = 1.5
 """Far longer than a lease: nothing on this machine is as late as this."""
 
@@ -178,7 +180,7 @@ async def test_where_all_places_are_taken_the_machine_that_has_most_watchers_los
     tasks = []
     for number, each in enumerate(sockets):
         host = "192.168.1.66" if number else "192.168.1.2"
-        serving = watched.serve(cast(Any, each), {}, None, lambda: True, stop=lambda: "", host=host)
+        serving = watched.serve(cast(Any, each), {}, None, lambda: True, stop=lambda _: "", host=host)
         tasks.append(asyncio.create_task(serving))
         await asyncio.sleep(0)
     assert [number for number, each in enumerate(sockets) if each.closed] == [1]

@@ -158,6 +158,25 @@ async def at_the_console(folder: Path, line: str) -> list[str]:
         await asyncio.gather(writer.wait_closed(), return_exceptions=True)
 
 
+async def test_a_press_of_stop_that_comes_by_two_ways_is_one_stop(box: Box) -> None:
+    await box.pair()
+    async with live(box) as browser:
+        for press, key in enumerate(("a-1", "a-2"), 1):
+            await browser.socket.send_str(f'{{"stop": true, "key": "{key}"}}')
+            await box.until(lambda: bool(box.status.latched))
+            assert (await box.post("stop", headers={"Idempotency-Key": key}))[0] == 200
+            assert (await box.post("resume", headers={"If-Match": f'"{press}"'}))[0] == 200
+            await box.until(lambda: not box.status.latched)
+            # One that is late by seconds does not hold the antenna again.
+            assert (await box.post("stop", headers={"Idempotency-Key": key}))[0] == 200
+        assert not box.status.latched
+    # A stop without a key is a stop each time, and so is one whose message is damaged.
+    assert (await box.post("stop", headers={"Idempotency-Key": ""}))[0] == 200
+    assert (await box.post("stop"))[0] == 200
+    async with live(box) as browser:
+        assert browser.told["now"]["stops"] == 4
+
+
 async def test_a_late_resume_does_not_undo_a_stop_that_its_sender_has_not_seen(box: Box) -> None:
     """A request may hang in the air for seconds, and a stop overtakes it: it names the stops that it knows."""
     await box.pair()

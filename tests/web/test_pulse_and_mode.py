@@ -22,6 +22,7 @@ async def seen(box: Box) -> set[tuple[int, ...]]:
     return found
 
 
+@pytest.mark.quiet
 @pytest.mark.parametrize("turn", DRIVES)
 async def test_a_pulse_closes_the_chosen_relay_and_no_other(box: Box, turn: str) -> None:
     await box.pair()

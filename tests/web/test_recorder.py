@@ -104,6 +104,7 @@ def test_a_short_part_and_another_targets_order_leave_nothing() -> None:
     assert watched.over == []
 
 
+@pytest.mark.long
 def test_a_target_that_stays_up_for_days_takes_no_more_memory() -> None:
     watched = Watched()
     for step in range(MOST_SAMPLES * 5):

@@ -6,14 +6,12 @@ import asyncio
 from pathlib import Path
 from typing import Any
 
-import aiohttp
 import pytest
 
 from rotator.config.load import load, shipped
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Latch
 from rotator.runtime.anew import Anew
-from rotator.web.settings import MOST_BODY
 from tests.web.conftest import PATIENCE_S, Box, Start, with_box
 
 REMARK = "[station]\nlocator = 'JO62qm' # my garden\n"
@@ -97,24 +95,6 @@ async def test_what_is_no_change_is_refused(box: Box, file: Path) -> None:
         status, told = await box.post("settings/write", await change_from(box, *changes))
         assert (status, bool(told["error"])) == (400, True), changes
     assert file.read_text() == before
-
-
-@with_box(REMARK, file=True)
-async def test_a_body_beyond_the_bound_is_cut_off(box: Box) -> None:
-    await box.pair()
-
-    async def endless() -> Any:
-        for _ in range(1000):
-            yield b" " * 4096
-
-    async with box.http.post(f"{box.url}/api/settings/write", data=b"x" * (MOST_BODY + 1)) as answer:
-        assert answer.status == 413
-    try:
-        async with box.http.post(f"{box.url}/api/settings/write", data=endless()) as answer:
-            assert answer.status == 413
-    except aiohttp.ClientError:
-        pass  # cut off in the middle
-    assert (await box.get("status"))[0] == 200
 
 
 @with_box(REMARK, file=True)

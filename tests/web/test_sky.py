@@ -90,6 +90,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.long
 @with_box(FOLLOWS)
 async def test_hostile_files_are_refused_by_name_and_leave_nothing(box: Box, tmp_path: Path) -> None:
     assert (await send(box, "x.tle", TLE))[0] == 401, "who is not paired sends nothing"

@@ -39,6 +39,7 @@ def test_its_event_loop_is_watched_from_its_start_to_its_end(tmp_path: Path) -> 
     assert events.stalled_s(100.0) == 0.0, "a page that has ended is not watched"
 
 
+@pytest.mark.long
 def test_a_page_that_has_failed_hangs_up_and_comes_back(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     """As when the system has no file left for a moment: it is told once, however often it fails."""
     port, without_files = free_port(), threading.Semaphore(0)

@@ -16,7 +16,7 @@ from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap
 from rotator.monitor.transcript import Piece, Way, parse
 from rotator.web.help_api import MOST_WATCHERS
-from rotator.web.wires import LONGEST_LINE, MOST_LINES, WireLog
+from rotator.web.logs import LONGEST_LINE, MOST_LINES, WireLog
 from tests.web.conftest import PATIENCE_S, Box
 
 NOON = datetime(2026, 11, 23, 12)

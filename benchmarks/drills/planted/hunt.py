@@ -33,13 +33,9 @@ NOTHING, FOUND = 0, 1
 
 @dataclass(frozen=True, slots=True)
 class Find:
-    judge: str
     kind: str
     after_h: float
     """Simulated hours played until then."""
-    measured: str
-    drawn_from: str
-    """SEED.NUMBER/KIND of the drill."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +79,7 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
                 drawn_from = str(found["drawn_from"])
                 # An exception is no find: a planted bug moves a motor, it does not end the program.
                 if found["judge"] in TABLE and not _replay(sound, found["script"]):
-                    find = Find(found["judge"], drawn_from.partition("/")[2], played_h, found["measured"], drawn_from)
+                    find = Find(drawn_from.partition("/")[2], played_h)
                     return Hunt(bug, played_h, find, tuple(also_without))
                 also_without.append(drawn_from)
             seed += 1

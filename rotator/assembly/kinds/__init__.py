@@ -42,6 +42,10 @@ def builder(kind: KindName) -> Builder:
             from rotator.assembly.kinds import relay_pulse
 
             return relay_pulse
+        case "relay-timed":
+            from rotator.assembly.kinds import relay_timed
+
+            return relay_timed
         case "moteus":
             from rotator.assembly.kinds import moteus
 
@@ -54,3 +58,15 @@ def builder(kind: KindName) -> Builder:
             from rotator.assembly.kinds import digipot
 
             return digipot
+        case "h-bridge":
+            from rotator.assembly.kinds import h_bridge
+
+            return h_bridge
+        case "controller":
+            from rotator.assembly.kinds import controller
+
+            return controller
+        case "stepper":
+            from rotator.assembly.kinds import stepper
+
+            return stepper

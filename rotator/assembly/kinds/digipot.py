@@ -37,9 +37,9 @@ def build(parts: Assembly, lines: OutputLines | None) -> BoxRotor:
         )
         return Mcp41010(spi, f"{axis.value}.select"), spec
 
-    drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), parts.board.clock, enable=lines)
+    drive = DigipotDrive(*config.of_each(box), parts.board.clock, enable=lines)
     sensors: dict[Axis, AngleSensor] = {}
-    for axis, sensor in parts.sensors({axis: drive.sensor(axis) for axis in Axis}).items():
+    for axis, sensor in parts.sensors({axis: drive.sensor(axis) for axis in parts.config.fitted}).items():
         points = None if isinstance(sensor, DriveAngle) else own_points(config, axis)
         table = config.axis(axis)
         healthy = ANYTHING if config.in_degrees(axis) else Window(table.lowest_reading, table.highest_reading)
@@ -55,6 +55,7 @@ def simulate(axes: SimulatedAxes) -> SimDigipotRotor:
         (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
         # The box compares with the end of its own pot, where the chip would be at its last step.
         full_deg = low_deg + (high_deg - low_deg) * (STEPS - low_step) / (high_step - low_step)
+        full_deg *= axes.config.axis(axis).fitted
         return DigipotAxisSpec(table.select, axes.start_deg(axis), axes.motor(axis), full_deg, table.dead_band_deg)
 
     return SimDigipotRotor(

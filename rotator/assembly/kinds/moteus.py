@@ -41,9 +41,10 @@ def moteus_drive(config: Config, clock: Callable[[], float], *, look_only: bool 
             geared=table.geared,
             min_deg=limits.min_deg,
             max_deg=limits.max_deg,
+            endless=config.endless(axis),
         )
 
-    return MoteusDrive(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), clock, look_only=look_only)
+    return MoteusDrive(*config.of_each(spec), clock, look_only=look_only)
 
 
 def moteus_bus(tables: Moteus, drive: MoteusDrive) -> MoteusBus:
@@ -53,7 +54,7 @@ def moteus_bus(tables: Moteus, drive: MoteusDrive) -> MoteusBus:
 
 def build(parts: Assembly, lines: OutputLines | None) -> MoteusRotor:
     drive = moteus_drive(parts.config, parts.board.clock)
-    sensors = parts.sensors({axis: drive.sensor(axis) for axis in Axis})
+    sensors = parts.sensors({axis: drive.sensor(axis) for axis in parts.config.fitted})
     return MoteusRotor(drive, _served(parts, drive), sensors, parts.shift, parts.ends)
 
 

@@ -15,8 +15,6 @@ from rotator.assembly.kinds.relay_pot import relay_bank
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulated_axes import STOP_BEYOND_DEG, SimulatedAxes
 from rotator.rotors.counted import CountedAxis, CountedRotor
-from rotator.rotors.counts_writer import CountsWriter
-from rotator.store.counts import NEVER, CountsFile, Place, Standing
 
 SWITCH_WITHIN_DEG = 1.0
 """How exactly an axis rests at the same place after its low limit switch: the switch, a cycle, and the coast vary."""
@@ -27,23 +25,14 @@ def build(parts: Assembly, lines: OutputLines | None) -> CountedRotor:
     assert lines is not None, "a relay rotor has relays"
     config, clock = parts.config, parts.board.clock
     tapped = TappedLines(lines, clock)
-    counting = [axis for axis in Axis if config.counts(axis)]
-    counts_writer: CountsWriter | None = None
-    if parts.counts and counting:
-        cams = config.pulses.cams(counting)
-        counts_writer = CountsWriter(CountsFile(parts.counts, cams), parts.write)
-    kept = counts_writer.load() if counts_writer else {}
+    counting = [axis for axis in config.fitted if config.counts(axis)]
+    counts_writer, kept = parts.kept_counts(counting)
     axes: dict[Axis, CountedAxis] = {}
-
-    def first(axis: Axis) -> Place:
-        """A rotor that outlives the program is unknown until it is homed. A simulation begins where the rotor is."""
-        return NEVER if config.keeps_files else Place(Standing.KNOWN, parts.start_deg(axis))
-
     for axis in counting:
         counter, master = _counter(parts, axis, tapped), config.relays.master is not None
         within_deg = SWITCH_WITHIN_DEG if f"{axis.value}_low" in config.limits.switches else 0.0
         axes[axis] = CountedAxis(axis, counter, counts_writer, clock, master=master, within_deg=within_deg)
-        axes[axis].begin(kept.get(axis, first(axis)))
+        axes[axis].begin(kept[axis])
     return CountedRotor(
         relay_bank(parts, tapped),
         parts.sensors(axes),
@@ -85,7 +74,8 @@ def simulate(axes: SimulatedAxes) -> SimRelayPulseRotor:
         cam = ContactSpec(table.spacing_deg, table.closed_deg, table.closes_at_deg, table.play_deg, SIM_BOUNCE_S)
         beyond_deg = STOP_BEYOND_DEG if f"{axis.value}_low" in axes.config.limits.switches else 0.0
         motor = axes.motor(axis, stop_low_deg=table.home_deg - beyond_deg)
-        return RelayPulseAxisSpec(*relays.turning(axis), table.contact, motor, cam, axes.start_deg(axis))
+        turning, brake_pin = relays.turning(axis), axes.config.axis(axis).brake.line
+        return RelayPulseAxisSpec(*turning, table.contact, motor, cam, axes.start_deg(axis), brake_pin=brake_pin)
 
     return SimRelayPulseRotor(
         spec(Axis.AZIMUTH),

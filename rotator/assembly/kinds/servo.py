@@ -30,13 +30,12 @@ def build(parts: Assembly, lines: OutputLines | None) -> ServoRotor:
         enable = board.outputs("rotator-servo", {ENABLE: tables.enable}, active_low=True)
     drive = ServoDrive(
         Pca9685(board.bus(tables.bus), tables.address, board.sleep, osc_hz=tables.osc_hz),
-        spec(Axis.AZIMUTH),
-        spec(Axis.ELEVATION),
+        *parts.config.of_each(spec),
         board.clock,
         enable=enable,
         idle_off_s=tables.idle_off_s or None,
     )
-    sensors = parts.sensors({axis: drive.sensor(axis) for axis in Axis})
+    sensors = parts.sensors({axis: drive.sensor(axis) for axis in parts.config.fitted})
     return ServoRotor(drive, sensors, parts.shift, parts.ends)
 
 
@@ -54,7 +53,7 @@ def simulate(axes: SimulatedAxes) -> SimServoRotor:
         spec(Axis.ELEVATION),
         axes.clock,
         axes.bus_sleep,
-        address=tables.address,
+        place=(tables.bus, tables.address),
         enable_pin=tables.enable,
         osc_hz=tables.osc_hz,
     )

@@ -5,18 +5,17 @@ Knows its table [digipot], and the answers of this kind to the questions in `kin
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from hw.ports import AngleSource, Axis
-from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
 from rotator.config.chips import SpiUse
-from rotator.config.kinds.kind import Kind, OffLine, Usual
-from rotator.config.kinds.points import out_of_reach, reach_deg
+from rotator.config.kinds.kind import Kind, OffLine, Usual, out_of_reach, reach_deg
+from rotator.config.sensors import Angle
 from rotator.config.table import Gpio, PerAxis, Point, Table
 
 
@@ -46,9 +45,9 @@ class Digipot(PerAxis, Table):
     """Clock and data."""
     enable: Gpio | None = None
     """The relay of the control boxes' supply. Without it they turn to mid-range at power-on."""
-    azimuth: DigipotAxisTable = DigipotAxisTable()
+    azimuth: DigipotAxisTable = DigipotAxisTable.model_construct()
     """The azimuth box."""
-    elevation: DigipotElevation = DigipotElevation()
+    elevation: DigipotElevation = DigipotElevation.model_construct()
     """The elevation box."""
 
 
@@ -83,10 +82,8 @@ class DigipotKind(Kind):
         enable = self.digipot.enable
         return () if enable is None else (OffLine("box_enable", "digipot.enable", enable),)
 
-    def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
-        tables = {axis: self.digipot.of(axis) for axis in Axis}
-        points = {axis: table.steps for axis, table in tables.items()}
-        return out_of_reach(axes, "digipot", "steps", points, tables)
+    def faults(self, axes: Mapping[Axis, AxisTable]) -> Iterable[str]:
+        return out_of_reach(axes, "digipot", "steps", self.digipot)
 
     def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
         return reach_deg(self.digipot.of(axis).steps)

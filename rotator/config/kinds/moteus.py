@@ -5,14 +5,16 @@ Knows its table [moteus], and the answers of this kind to the questions in `kind
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from hw.ports import AngleSource, Axis
-from rotator.config.angle import Angle
+from rotator.config.axes import AxisTable
 from rotator.config.kinds.kind import Kind, Usual
+from rotator.config.sensors import Angle
 from rotator.config.table import PerAxis, Table
 
 
@@ -31,11 +33,8 @@ class MoteusAxisTable(Table):
     geared: bool = True
     """The only encoder sits before a gear: after power-on the axis does not move until you confirm its angle."""
 
-    @model_validator(mode="after")
-    def _turns_the_antenna(self) -> MoteusAxisTable:
-        if self.rev_per_turn == 0:
-            raise ValueError("rev_per_turn must not be 0")
-        return self
+    def faults(self) -> list[str]:
+        return [] if self.rev_per_turn else ["rev_per_turn must not be 0"]
 
 
 class MoteusElevation(MoteusAxisTable):
@@ -48,16 +47,10 @@ class Moteus(PerAxis, Table):
     """The adapter's serial port."""
     can: str | None = Field(None, min_length=1)
     """In place of `port`: a CAN-FD interface of the kernel, such as can0."""
-    azimuth: MoteusAxisTable = MoteusAxisTable()
+    azimuth: MoteusAxisTable = MoteusAxisTable.model_construct()
     """The azimuth controller."""
-    elevation: MoteusElevation = MoteusElevation()
+    elevation: MoteusElevation = MoteusElevation.model_construct()
     """The elevation controller."""
-
-    @model_validator(mode="after")
-    def _ids_differ(self) -> Moteus:
-        if self.azimuth.id == self.elevation.id:
-            raise ValueError(f"azimuth and elevation both have id {self.azimuth.id}: give one another with tview")
-        return self
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +58,7 @@ class MoteusKind(Kind):
     moteus: Moteus
 
     confirmable = True
+    endless = True
     own = Angle(AngleSource.MEASURED, sensor="encoder", by="told by its controller")
     usual: ClassVar[Usual] = {
         axis: {"speed_dps": 30.0} for axis in ("azimuth", "elevation", "sim.azimuth", "sim.elevation")
@@ -73,6 +67,10 @@ class MoteusKind(Kind):
 
     def serial_port(self) -> str | None:
         return None if self.moteus.can else self.moteus.port
+
+    def faults(self, axes: Mapping[Axis, AxisTable]) -> Iterator[str]:
+        if len(axes) == len(Axis) and self.moteus.azimuth.id == self.moteus.elevation.id:
+            yield f"azimuth and elevation both have id {self.moteus.azimuth.id}: give one another with tview"
 
     def accel_dps2(self, axis: Axis) -> float | None:
         return self.moteus.of(axis).accel_limit_dps2

@@ -7,18 +7,17 @@ driver.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from hw.ports import AngleSource, Axis
-from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
-from rotator.config.devices import Relays
-from rotator.config.kinds.kind import EndStop, Kind, OffLine, Usual
-from rotator.config.kinds.relay_pot import relay_lines
+from rotator.config.kinds.kind import EndStop, Usual
+from rotator.config.kinds.relay_pot import RelayPot
+from rotator.config.sensors import Angle
 from rotator.config.table import Gpio, PerAxis, Table
 
 CLEAR_DEG = 1.0
@@ -47,23 +46,17 @@ class PulseAxisTable(Table):
         closures_deg = [self.closes_at_deg + each * self.spacing_deg for each in range(turn - 2, turn + 5)]
         return [closes_deg + part_deg for closes_deg in closures_deg for part_deg in (0.0, self.closed_deg)]
 
-    @model_validator(mode="after")
-    def _contact_opens(self) -> PulseAxisTable:
-        if self.closed_deg >= self.spacing_deg:
-            raise ValueError(f"closed_deg ({self.closed_deg:g}) must be below spacing_deg ({self.spacing_deg:g})")
-        return self
-
-    @model_validator(mode="after")
-    def _tells_places_apart(self) -> PulseAxisTable:
-        """A shaft that came down stands anywhere in its play: with two closures in it, the contact names no place."""
+    def faults(self) -> Iterator[str]:
         narrowest_deg = min(self.closed_deg, self.spacing_deg - self.closed_deg)
-        if self.play_deg >= narrowest_deg > 0:
-            raise ValueError(
+        if narrowest_deg <= 0:
+            yield f"closed_deg ({self.closed_deg:g}) must be below spacing_deg ({self.spacing_deg:g})"
+        elif self.play_deg >= narrowest_deg:
+            # A shaft that came down stands anywhere in its play: with two closures in it, the contact names no place.
+            yield (
                 f"play_deg ({self.play_deg:g}) must be below {narrowest_deg:g}, the width of the cam's narrower part: "
                 "with more play the contact shows the same at two places, and the axis cannot be homed; measure "
                 "closed_deg, or take play out of the gear"
             )
-        return self
 
 
 class PulseElevation(PulseAxisTable):
@@ -78,22 +71,16 @@ class Pulses(PerAxis, Table):
     """The Pi's own resistor holds the line at the open level."""
     debounce_s: float = Field(0.02, ge=0, le=0.3)
     """A change of the contact counts after this time."""
-    azimuth: PulseAxisTable = PulseAxisTable()
+    azimuth: PulseAxisTable = PulseAxisTable.model_construct()
     """The azimuth axis's cam."""
-    elevation: PulseElevation = PulseElevation()
+    elevation: PulseElevation = PulseElevation.model_construct()
     """The elevation axis's cam."""
-
-    def cams(self, axes: Iterable[Axis]) -> dict[Axis, dict[str, float]]:
-        """The settings of each axis's cam. A saved count is valid only for the same settings."""
-        return {axis: self.of(axis).model_dump(exclude={"contact"}) for axis in axes}
 
 
 @dataclass(frozen=True, slots=True)
-class RelayPulse(Kind):
-    relays: Relays
+class RelayPulse(RelayPot):
     pulses: Pulses
 
-    switched = True
     own = Angle(AngleSource.COUNTED, sensor="contact", by="counted")
     usual: ClassVar[Usual] = {
         "azimuth": {"coast_s": 0.1},
@@ -103,14 +90,14 @@ class RelayPulse(Kind):
     }
 
     def pins(self) -> list[tuple[int, str]]:
-        outputs = [(pin, f"relays.{key}") for key, pin in self.relays.outputs.items()]
+        outputs = RelayPot.pins(self)
         return outputs + [(self.pulses.of(axis).contact, f"pulses.{axis.value}.contact") for axis in Axis]
 
-    def off_lines(self) -> tuple[OffLine, ...]:
-        return relay_lines(self.relays)
+    def cams(self, axes: Iterable[Axis]) -> dict[Axis, dict[str, object]]:
+        return {axis: self.pulses.of(axis).model_dump(exclude={"contact"}) for axis in axes}
 
     def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
-        longest_coast_s = max(self.pulses.of(axis).coast_s for axis in Axis)
+        longest_coast_s = max(self.pulses.of(axis).coast_s for axis in axes)
         if self.relays.dead_time_s >= longest_coast_s:
             return []
         return [

@@ -5,18 +5,17 @@ Knows its table [servo], and the answers of this kind to the questions in `kind.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from pydantic import Field
 
 from hw.ports import AngleSource, Axis
-from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
 from rotator.config.chips import I2CChip
-from rotator.config.kinds.kind import Kind, OffLine, Usual
-from rotator.config.kinds.points import out_of_reach, reach_deg
+from rotator.config.kinds.kind import Kind, OffLine, Usual, out_of_reach, reach_deg
+from rotator.config.sensors import Angle
 from rotator.config.table import Gpio, I2CAddress, I2CBus, PerAxis, Point, Table
 
 
@@ -46,9 +45,9 @@ class Servo(PerAxis, Table):
     """The board's OE input, with a pull-up: no pulse before the program starts them."""
     idle_off_s: float = Field(0.0, ge=0, le=86_400)
     """After this time without a move a servo gets no pulses and is limp. 0: it always holds."""
-    azimuth: ServoAxisTable = ServoAxisTable()
+    azimuth: ServoAxisTable = ServoAxisTable.model_construct()
     """The azimuth servo."""
-    elevation: ServoElevation = ServoElevation()
+    elevation: ServoElevation = ServoElevation.model_construct()
     """The elevation servo."""
 
 
@@ -77,10 +76,8 @@ class ServoKind(Kind):
         # OE is active low. It stays on after the program has died, so that the servos hold the antenna.
         return (OffLine("enable", "servo.enable", self.servo.enable, off_high=True, switches=False, stops=False),)
 
-    def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
-        tables = {axis: self.servo.of(axis) for axis in Axis}
-        points = {axis: table.pulses_us for axis, table in tables.items()}
-        return out_of_reach(axes, "servo", "pulses_us", points, tables)
+    def faults(self, axes: Mapping[Axis, AxisTable]) -> Iterable[str]:
+        return out_of_reach(axes, "servo", "pulses_us", self.servo)
 
     def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
         return reach_deg(self.servo.of(axis).pulses_us)

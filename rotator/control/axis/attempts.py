@@ -1,7 +1,7 @@
 """Failed runs of a motor: the fault, who may try again, and where the axis stopped.
 
-Knows the axis's latest faults, its short runs, and the places at which it stood still. Does not find any other fault,
-and stops nothing.
+Knows the axis's latest faults, its runs in vain, and the places at which it stood still. Finds no fault, and stops
+nothing.
 """
 
 from __future__ import annotations
@@ -9,21 +9,24 @@ from __future__ import annotations
 from hw.ports import Axis
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.met_stops import MetStops
+from rotator.control.axis.relay_gate import RelayGate
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.short_runs import STANDING_FAULTS, ShortRuns
+from rotator.control.axis.vain_runs import STANDING_FAULTS
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import LATE, POT, Fault, FaultKind, Notice
 from rotator.exchange.motor import NO_TRIES, Tries
 
 
 class Attempts:
-    """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
+    """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time.
 
-    def __init__(self, axis: Axis, limits: Range, sensor: str = POT, before: Tries = NO_TRIES) -> None:
-        """`before`: what earlier runs of the program have tried."""
+    `before`: what earlier runs of the program have tried.
+    """
+
+    def __init__(self, axis: Axis, limits: Range, gate: RelayGate, sensor: str = POT, before: Tries = NO_TRIES) -> None:
         fault = Fault(before.kind or FaultKind.STANDS_STILL, axis, "")
         self._faults = FaultLatch(sensor, before=fault, tries=before.faults)
-        self._short_runs = ShortRuns(axis)
+        self._gate = gate
         self._stops = MetStops(axis, limits, before)
         self._now_s = 0.0
         self._angle_deg: float | None = None
@@ -43,30 +46,19 @@ class Attempts:
     def notices(self) -> tuple[Notice, ...]:
         return self._stops.notices
 
-    @property
-    def in_vain(self) -> bool:
-        """Whether the present run, or one before it, has not been seen to move the axis, and no fault counts it."""
-        return self.fault is None and self._short_runs.in_vain
-
     def tries(self, now_s: float, *, pressed: bool = False, driven: bool = False) -> Tries:
         """What the next run of the program has to know. `pressed`, `driven`: those of `Tries`."""
         faults = self._faults.tries(now_s)
         kind = self._faults.kind if faults else None
         return Tries(faults, kind, self._stops.stood_deg, self._stops.stops_deg, pressed, driven)
 
-    def note_relays(self, relays: RelayState, speed_dps: float) -> None:
-        """The relays have changed. `speed_dps`: of the motor that runs now; 0: none runs."""
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
         self._relays = relays
-        self._short_runs.note_relays(relays, speed_dps)
 
-    def settles(self, now_s: float) -> bool:
-        """Whether the readings may still show that the last run has moved the axis: a start now would be too soon."""
-        return self._short_runs.settles(now_s)
-
-    def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
-        """A good reading. Returns the fault that it shows, if any."""
+    def see(self, angle_deg: float) -> None:
+        """A good reading."""
         self._angle_deg = angle_deg
-        return self._short_runs.see(at_s, angle_deg, noise_deg)
 
     def note(self, found: Fault | None, now_s: float, *, cause: Fault | None, in_order: bool = False) -> bool:
         """Note what is wrong now; `cause`: the part that is still present. Returns whether a new fault is kept.
@@ -91,19 +83,20 @@ class Attempts:
 
     def forget(self) -> None:
         """A person has looked, or the readings mean other places than before."""
-        self._short_runs.forget()
+        self._gate.watch.runs.forget()
         self._stops.forget()
 
     def _tries(self, found: Fault | None) -> int:
-        """How often the motor was on in vain before this fault: it runs now, or its last runs were short."""
-        if self._relays.closed or found is None:
-            return int(self._relays.closed)
-        return max(1, self._short_runs.tries) if found.kind in {*STANDING_FAULTS, FaultKind.WRONG_WAY} else 0
+        """How often the motor was on in vain before this fault: it runs now, or its last runs were in vain."""
+        runs = int(self._relays.closed)
+        if found is None or found.kind not in {*STANDING_FAULTS, FaultKind.WRONG_WAY}:
+            return runs
+        return max(1, runs + self._gate.watch.runs.tries)
 
     def _struck(self, new: bool) -> bool:
         # A lateness says nothing of the motor: its runs until then still count.
         if new and self.fault is not None and self.fault.kind not in LATE:
-            self._short_runs.struck(self.fault.kind)
+            self._gate.watch.runs.struck(self.fault.kind)
             if self.fault.kind in STANDING_FAULTS and self._relays.last and self._angle_deg is not None:
                 self._stops.stood_still(self.fault.kind, self._relays.last, self._angle_deg)
         return new

@@ -6,21 +6,23 @@ Knows the goal and the readings. Does not know how the motor is driven: `switche
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import replace
 from typing import Generic, TypeVar
 
 from hw.ports import Direction
 from rotator.control.axis.end_calibration import EndCalibration
-from rotator.control.axis.goals import HomeGoal, JogGoal, jog
+from rotator.control.axis.goals import HomeGoal, JogGoal, SeekGoal, jog
 from rotator.control.axis.readings import NORMAL, Reading
 from rotator.control.axis.sensing import Sensing
-from rotator.control.axis.settings import AxisSettings
+from rotator.control.axis.settings import PositionedSettings, SwitchedSettings
 from rotator.control.seen_turning import SeenTurning
+from rotator.control.sky.angles import FULL_TURN_DEG
 from rotator.control.sky.goal import AimGoal
 from rotator.exchange.faults import Fault, Missing, Notice
 from rotator.exchange.motor import ALL_OPEN, Motor, Tries, Trusts
 from rotator.exchange.status import AxisStatus
 
-Settings = TypeVar("Settings", bound=AxisSettings)
+Settings = TypeVar("Settings", bound=SwitchedSettings | PositionedSettings)
 
 
 class AxisBase(ABC, Generic[Settings]):
@@ -28,7 +30,7 @@ class AxisBase(ABC, Generic[Settings]):
 
     def __init__(self, settings: Settings, fastest_dps: float) -> None:
         self._settings = settings
-        self._goal: AimGoal | JogGoal | HomeGoal | None = None
+        self._goal: AimGoal | JogGoal | HomeGoal | SeekGoal | None = None
         self._ordered: AimGoal | None = None
         """The target last ordered. A fault ends the goal, but not this: only a person or an order does."""
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
@@ -78,7 +80,8 @@ class AxisBase(ABC, Generic[Settings]):
 
     @property
     def aiming(self) -> AimGoal | None:
-        return self._goal if isinstance(self._goal, AimGoal) else None
+        goal = self._goal.then if isinstance(self._goal, HomeGoal) else self._goal
+        return goal if isinstance(goal, AimGoal) else None
 
     @property
     def busy(self) -> bool:
@@ -93,10 +96,19 @@ class AxisBase(ABC, Generic[Settings]):
         return isinstance(self._goal, HomeGoal)
 
     def aim(self, goal: AimGoal) -> None:
-        self._goal = self._ordered = goal
+        self._ordered = goal
+        self._go_to(goal)
+
+    def _go_to(self, goal: AimGoal) -> None:
+        """An axis on its way to its end stop goes there first, where that way is for a target."""
+        now = self._goal
+        self._goal = replace(now, then=goal) if isinstance(now, HomeGoal) and now.then else goal
 
     def nudged(self) -> None:
         """A drive that takes an angle goes there anyway."""
+
+    def limit_speed(self, level: int) -> None:
+        """Its drive has its own speed."""
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
         self._goal, self._ordered = jog(direction, seconds, now_s, commissioned=not self.missing, held=held), None
@@ -105,8 +117,8 @@ class AxisBase(ABC, Generic[Settings]):
         self._goal = self._ordered = None
 
     def forget_path(self) -> None:
-        if isinstance(self._goal, AimGoal):
-            self._goal = self._goal.standing()
+        if self.aiming:
+            self._go_to(self.aiming.standing())
 
     def confirmed(self) -> None:
         self._sensing.begin_anew(self._sensing.calibration)
@@ -131,19 +143,20 @@ class AxisBase(ABC, Generic[Settings]):
         learnt: tuple[Motor, Motor] | None = None,
         trusts: Trusts = ALL_OPEN,
         waiting: bool = False,
+        error_deg: float | None = None,
     ) -> AxisStatus:
         """The status of the axis. The defaults are those of a drive without relays."""
-        sensing, limits, aiming = self._sensing, self._settings.limits, self.aiming
+        sensing, limits, aiming = self._sensing, self._settings.limits.shown, self.aiming
         seen = now_s <= sensing.ridden_until_s
         return AxisStatus(
             min_deg=limits.min_deg,
             max_deg=limits.max_deg,
-            angle_deg=sensing.angle_deg,
+            angle_deg=self._shown_deg(sensing.angle_deg),
             seen=seen,
             raw=sensing.raw,
             source=self._settings.source,
-            target_deg=aiming.target_deg if aiming else None,
-            missed_deg=self._ordered.target_deg if self._ordered and not aiming else None,
+            target_deg=self._shown_deg(aiming.target_deg if aiming else None),
+            missed_deg=self._shown_deg(self._ordered.target_deg if self._ordered and not aiming else None),
             tolerance_deg=aiming.tolerance_deg if aiming else None,
             drive=drive,
             moving=self.moving(now_s),
@@ -161,4 +174,9 @@ class AxisBase(ABC, Generic[Settings]):
             trusts=trusts,
             tries=tries,
             waiting=waiting,
+            error_deg=error_deg,
+            endless=self._settings.limits.endless,
         )
+
+    def _shown_deg(self, angle_deg: float | None) -> float | None:
+        return angle_deg % FULL_TURN_DEG if angle_deg is not None and self._settings.limits.endless else angle_deg

@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 
 from hw.ports import Direction
 from rotator.control.axis.homing import Homing
+from rotator.control.axis.timed_homing import TimedHoming
+from rotator.control.sky.goal import AimGoal
 
 UNCALIBRATED_JOG_S = 2.0
 """The longest press on an axis that is not commissioned."""
@@ -39,7 +41,16 @@ class JogGoal:
 class HomeGoal:
     """Find the end stop."""
 
-    homing: Homing
+    homing: Homing | TimedHoming
+    then: AimGoal | None = None
+    """The target for which the axis finds its stop first; None: a person has asked for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class SeekGoal:
+    """The drive finds its end stop by itself, and then its readings have another scale."""
+
+    scale: int
 
 
 def jog(

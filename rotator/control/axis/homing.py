@@ -49,6 +49,10 @@ class HomingSettings:
     """Beyond these angles a motor could turn to its stop without a change of the contact: it is not brought to rest
     there, for nothing would show that its relay has opened."""
 
+    def begin(self, _furthest_deg: float | None) -> Homing:
+        """The stop is found from anywhere."""
+        return Homing(self)
+
 
 class _Phase(Enum):
     DOWN = "down"

@@ -31,10 +31,13 @@ class MetStops:
         self.limits = limits
         """How far the axis may turn now."""
         self.notices: tuple[Notice, ...] = ()
-        self._keep(_by_way(before.stops_deg))
+        # Without ends the scale begins anew with each run of the program: a place of the run before says nothing.
+        self._keep({} if limits.endless else _by_way(before.stops_deg))
 
     def stood_still(self, kind: FaultKind, direction: Direction, angle_deg: float) -> None:
-        """A fault of that kind: driven in this direction, the axis stood there."""
+        """A fault of that kind: driven in this direction, the axis stood there. Its own brake is no stop."""
+        if kind is FaultKind.BRAKE_HELD:
+            return
         again = direction in self._stood and abs(self._stood[direction] - angle_deg) <= SAME_DEG
         self._stood = {**self._stood, direction: angle_deg}
         if kind is FaultKind.END_STOP or again:

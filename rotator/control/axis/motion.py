@@ -39,6 +39,8 @@ class _Run:
     started_s: float
     from_deg: float | None
     """Where the axis rested before; None: it was still coasting."""
+    spared_s: float = 0.0
+    """At full speed it would have taken so much less."""
 
 
 @dataclass(slots=True)
@@ -48,6 +50,7 @@ class _Landing:
     run: _Run
     off_s: float
     wanted_deg: float
+    pace: float
     speed_share: float
     readings: list[float]
 
@@ -62,6 +65,7 @@ class Motion:
         self.angle_deg: float | None = None
         self._speed_dps = 0.0
         self._at_s = 0.0
+        self._pace, self._paced_s = 1.0, 0.0
         self._run: _Run | None = None
         self._landing: _Landing | None = None
         self._strays: deque[tuple[float, float]] = deque(maxlen=JUMP_READINGS)
@@ -88,8 +92,22 @@ class Motion:
             self._run = _Run(direction, now_s, self.angle_deg if self._landing is None else None)
             self._landing = None
         elif run is not None:
-            speed_share = self._speed_dps * run.direction / self.motors[run.direction].speed_dps
-            self._landing = _Landing(run, now_s, wanted_deg, speed_share, [])
+            self._spare(run, now_s)
+            speed_share = self._speed_dps * run.direction / (self.motors[run.direction].speed_dps * self._pace)
+            self._landing = _Landing(run, now_s, wanted_deg, self._pace, speed_share, [])
+
+    def note_pace(self, now_s: float, pace: float) -> None:
+        """From now on an output lets the motor turn at this share of its full speed."""
+        if pace == self._pace:
+            return
+        if self.angle_deg is not None:
+            self._advance(now_s)
+        if self._run:
+            self._spare(self._run, now_s)
+        self._pace, self._paced_s = pace, now_s
+
+    def _spare(self, run: _Run, now_s: float) -> None:
+        run.spared_s += (1.0 - self._pace) * (now_s - max(self._paced_s, run.started_s))
 
     def forget_run(self) -> None:
         """Learn nothing from the present or latest run: something was wrong with it."""
@@ -136,7 +154,7 @@ class Motion:
 
     def _wanted_dps(self) -> float:
         """The speed that the motor makes for."""
-        return self.motors[self._run.direction].speed_dps * self._run.direction if self._run else 0.0
+        return self.motors[self._run.direction].speed_dps * self._run.direction * self._pace if self._run else 0.0
 
     def _speed_at(self, now_s: float) -> float:
         wanted_dps = self._wanted_dps()
@@ -207,9 +225,9 @@ class Motion:
             gone_deg = (rest_deg - run.from_deg) * run.direction
             if gone_deg > LEAST_RUN_DEG:
                 trust = LEARN_SHARE * min(1.0, gone_deg / (4 * LEAST_RUN_DEG))
-                speed_dps += trust * (gone_deg / (landing.off_s - run.started_s) - speed_dps)
+                speed_dps += trust * (gone_deg / (landing.off_s - run.started_s - run.spared_s) - speed_dps)
         if landing.speed_share > FULL_SPEED:
-            missed_deg = (rest_deg - landing.wanted_deg) * run.direction
+            missed_deg = (rest_deg - landing.wanted_deg) * run.direction / landing.pace
             seen_s = (coast_deg + missed_deg) / motor.speed_dps
             self.coasted_s[run.direction] = max(self.coasted_s.get(run.direction, 0.0), seen_s)
             coast_deg = min(max(coast_deg + LEARN_SHARE * missed_deg, 0.0), 3.0 * speed_dps)

@@ -89,6 +89,9 @@ class ControlledAxis(Protocol):
     def nudged(self) -> None:
         """A person has shifted the target: it is worth a move, also within the tolerance."""
 
+    def limit_speed(self, level: int) -> None:
+        """No faster than X1 to X4 of a GS-232 says, where an output sets the speed."""
+
     def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
         """Turn that way for `seconds`, or until halted (None). OFF halts. `held`: no wait prolongs the time."""
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.axis_base import AxisBase
 from rotator.control.axis.fault_latch import FaultLatch
-from rotator.control.axis.goals import JogGoal
+from rotator.control.axis.goals import JogGoal, SeekGoal
 from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.pace import Pace
 from rotator.control.axis.positioned_law import PositionedLaw, Sent
@@ -22,7 +22,7 @@ from rotator.control.axis.relay_faults import limit_reached, unstoppable
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
-from rotator.control.commands import HOLD, Command, Decision, Steer
+from rotator.control.commands import HOLD, Command, Decision, Seek, Steer
 from rotator.control.refused import Refused, needs_no_homing
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
@@ -41,11 +41,12 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         super().__init__(settings, settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf)
         self._lease_s = lease_s
         self._faults = _latch(settings)
-        servo = settings.accel_dps2 is not None and settings.source is AngleSource.MEASURED
+        servo = settings.accel_dps2 is not None and settings.source is not AngleSource.MODELLED
         self._stray = StrayWatch(
             settings.axis,
             settings.speed_dps,
             settings.accel_dps2,
+            rest_s=settings.reversal_rest_s,
             near_deg=settings.near_deg,
             stray_deg=SERVO_STRAY_DEG if servo else STRAY_DEG,
         )
@@ -74,11 +75,25 @@ class PositionedAxis(AxisBase[PositionedSettings]):
     def confirmable(self) -> bool:
         return self._settings.confirmable
 
+    @property
+    def homeable(self) -> bool:
+        return self._settings.homes
+
+    @property
+    def homing(self) -> bool:
+        return isinstance(self._goal, SeekGoal)
+
     def moving(self, now_s: float) -> bool:
         return self.driven
 
     def home(self) -> None:
-        raise Refused(needs_no_homing(self._settings.axis.value))
+        name = self._settings.axis.value
+        if self.homeable:
+            self._goal, self._ordered = SeekGoal(self._condition.scale), None
+        elif self.missing and self.confirmable:
+            raise Refused(f"{name} has no end stop to find: look where it points, then rotator confirm {name} DEGREES")
+        else:
+            raise Refused(needs_no_homing(name))
 
     def calibrate_end(self, *, high_end: bool) -> None:
         raise Refused(f"{self._settings.axis.value} knows its own angles: it needs no ends")
@@ -88,6 +103,8 @@ class PositionedAxis(AxisBase[PositionedSettings]):
 
     def see(self, reading: Reading, now_s: float) -> None:
         self._seen_s = now_s
+        if reading.condition.scale != self._condition.scale:
+            self._sensing.begin_anew(self._sensing.calibration)
         unbelievable = self._sense(reading, now_s, self._readings.noise_deg)
         for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
             self._readings.see(at_s, angle_deg, self._settings.speed_dps)
@@ -128,6 +145,11 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         return self._faults.acknowledge(now_s, by_person=by_person)
 
     def decide(self, now_s: float) -> Decision:
+        if isinstance(self._goal, SeekGoal):
+            self._sent = None
+            if self.fault is None and self._goal.scale == self._condition.scale:
+                return Decision(Seek(now_s + self._lease_s))
+            self._goal = None
         steer = self._wish(now_s)
         if steer is not None and (blocked := self._blocked(steer)):
             self.fail(limit_reached(self._settings.axis, blocked))
@@ -171,7 +193,8 @@ class PositionedAxis(AxisBase[PositionedSettings]):
             return None
         if jog.end_deg is not None:
             return self._law.jog_to(jog.end_deg, angle_deg, until_s)
-        return self._law.jog(now_s, angle_deg, jog.direction, until_s, self._sent, settling=self._condition.settling)
+        settling, lost = self._condition.settling, bool(self._condition.lost)
+        return self._law.jog(now_s, angle_deg, jog.direction, until_s, self._sent, settling=settling, lost=lost)
 
     def _blocked(self, steer: Steer) -> Direction | None:
         """The direction of the command, where a limit switch forbids it."""
@@ -182,6 +205,8 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         if self.missing or now_s - self._sensing.believed_s > LOST_AFTER_S or lost(self.fault):
             return UNKNOWN
         span = self._pace.span(now_s)
+        if isinstance(command, Seek):
+            return span.spanning(self._settings.limits.min_deg)
         if not isinstance(command, Steer):
             return span
         # The axis comes to rest at the place of its last command, and moves on while that command holds.
@@ -202,7 +227,9 @@ class PositionedAxis(AxisBase[PositionedSettings]):
 
     def hold_back(self, now_s: float, why: str) -> None:
         self._sent = None
-        if isinstance(self._goal, JogGoal):
+        if self.homing:
+            self.fail(Fault(FaultKind.NOT_HOMED, self._settings.axis, why))
+        if isinstance(self._goal, JogGoal | SeekGoal):
             self._goal = None
 
     def shortened(self, now_s: float, command: Steer) -> None:
@@ -228,6 +255,8 @@ class PositionedAxis(AxisBase[PositionedSettings]):
     @property
     def _drive(self) -> Direction:
         """The direction in which the drive turns it to where it was sent; OFF: it is there, or it holds."""
+        if self.homing:
+            return Direction.MINUS
         return self._law.towards(self._sent.steer, self._sensing.angle_deg) if self._sent else Direction.OFF
 
 

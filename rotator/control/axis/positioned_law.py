@@ -6,6 +6,7 @@ brakes. Knows nothing of the sky, of faults, or of who gave the order.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -13,6 +14,7 @@ from hw.ports import Direction
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG
 from rotator.control.commands import Steer
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 
 RATE_OVER_S = 0.25
@@ -21,6 +23,7 @@ SOON_S = 0.04
 """A motor that brakes begins to brake this much early: the next command may come too late."""
 STILL_DPS = 0.05
 """A target slower than this stands still."""
+ANYWHERE = Range(-math.inf, math.inf)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +63,22 @@ class PositionedLaw:
         return Steer(limit_deg, 0.0, until_s) if brakes else steer
 
     def jog(
-        self, now_s: float, angle_deg: float, direction: Direction, until_s: float, sent: Sent | None, *, settling: bool
+        self,
+        now_s: float,
+        angle_deg: float,
+        direction: Direction,
+        until_s: float,
+        sent: Sent | None,
+        *,
+        settling: bool,
+        lost: bool = False,
     ) -> Steer | None:
         """On from where this jog sent it last, at its own speed, up to its limit; at first from where it is.
 
-        `settling`: it does not follow yet. None: it is at its limit, and the jog is over.
+        `settling`: it does not follow yet. `lost`: the angle is not that of the antenna, and no limit can be known.
+        None: it is at its limit, and the jog is over.
         """
-        limits = self._settings.limits
+        limits = ANYWHERE if lost else self._settings.limits
         limit_deg = limits.max_deg if direction > 0 else limits.min_deg
         if sent is None and (limit_deg - angle_deg) * direction <= self._settings.near_deg:
             return None
@@ -75,7 +87,7 @@ class PositionedLaw:
         # Where it can just brake, it is steered to its limit again and again: `hold` would let it come to rest beyond.
         if (limit_deg - from_deg) * direction <= self._braking_deg:
             return Steer(limit_deg, 0.0, until_s)
-        return self._within(from_deg, self._settings.speed_dps * direction, until_s)
+        return self._within(from_deg, self._settings.speed_dps * direction, until_s, limits)
 
     def jog_to(self, end_deg: float, angle_deg: float, until_s: float) -> Steer | None:
         """To the end of a jog that may go no further. None: it is there, and the jog is over."""
@@ -96,9 +108,9 @@ class PositionedLaw:
         towards = Direction.PLUS if ahead_deg > 0 else Direction.MINUS
         return towards if towards in switches and abs(ahead_deg) >= COMING_DEG else None
 
-    def _within(self, angle_deg: float, rate_dps: float, until_s: float) -> Steer:
+    def _within(self, angle_deg: float, rate_dps: float, until_s: float, limits: Range | None = None) -> Steer:
         """Not beyond the limits: there it stays, while the target moves on."""
-        limits = self._settings.limits
+        limits = limits or self._settings.limits
         kept_deg = limits.nearest(angle_deg)
         outward = (kept_deg == limits.max_deg and rate_dps > 0) or (kept_deg == limits.min_deg and rate_dps < 0)
         return Steer(kept_deg, 0.0 if outward or kept_deg != angle_deg else rate_dps, until_s)

@@ -44,6 +44,10 @@ class Condition:
     """The directions in which its contact would change again before the stop."""
     supplied: bool = True
     """The motors have their supply, as far as the box knows: no master is open."""
+    error_deg: float | None = None
+    """How far an angle reckoned by time may be off; infinite: it is lost. None: the angle is seen or counted."""
+    worn: bool = False
+    """Such an axis has turned so far that it should be set anew at its end stop when there is time for it."""
 
 
 NORMAL = Condition()

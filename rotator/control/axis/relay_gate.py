@@ -11,16 +11,18 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from hw.ports import Direction
+from rotator.control.axis.blind_watch import BlindWatch
 from rotator.control.axis.motion_watch import MotionWatch
-from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS, doubts, unstoppable
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_watch import RelayWatch
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.axis.timed_homing import TimedHomingSettings
 from rotator.control.commands import Feed, Run
+from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.motor import Motor, Trust, Trusts
+from rotator.exchange.motor import Motor, Trust
 
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
@@ -30,7 +32,7 @@ WAITS = Notice("waits until it stands still before its relay closes")
 
 
 class RelayGate:
-    """Give it every good reading (`see`) and every change of the relays (`note_relays`). It passes each run, or not.
+    """Give it every change of the relays (`note_relays`), and its `watch` every good reading. It passes a run, or not.
 
     `placed`: the readings are angles, and the limits are known.
     """
@@ -41,17 +43,9 @@ class RelayGate:
         self._settings = settings
         self._lease_s = lease_s
         self._relays = RelayState()
-        self._watch = _new_watch(settings, motors, placed=placed)
+        self.watch = _new_watch(settings, motors, placed=placed)
         self._waits_s = math.inf
         """Since when a run waits for the opposite relay to be seen open; infinite: no run waits."""
-
-    @property
-    def trusts(self) -> Trusts:
-        return self._watch.trusts
-
-    @property
-    def noise_deg(self) -> float:
-        return self._watch.noise_deg
 
     @property
     def waiting(self) -> bool:
@@ -60,40 +54,21 @@ class RelayGate:
     @property
     def turns_when_fed(self) -> bool:
         """A relay was found closed: its motor turns as soon as the box switches the supply on for the other motor."""
-        return self._settings.master and Trust.WELDED in self.trusts
+        return self._settings.master and Trust.WELDED in self.watch.trusts
 
     @property
     def unsure(self) -> bool:
         """A relay may be stuck. Only cutting the supply, which the box can do, is sure to stop the motor."""
-        return self._settings.master and self._watch.unsure
-
-    def see(self, at_s: float, reading: float, condition: Condition) -> Fault | None:
-        """What is wrong with the motion: a fault, or None."""
-        return self._watch.see(at_s, reading, condition)
+        return self._settings.master and self.watch.unsure
 
     def note_relays(self, relays: RelayState) -> None:
         """The relays have changed."""
         self._relays = relays
-        self._watch.note_relays(relays)
-
-    def homes(self, *, homing: bool, failed: bool) -> None:
-        """Whether the axis looks for its end stop: it may then stand there, driven."""
-        self._watch.homes(homing=homing, failed=failed)
-
-    def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
-        """The readings mean other places than before."""
-        self._watch.rescale(motors, placed=placed)
-
-    def acknowledge(self) -> None:
-        self._watch.acknowledge()
-
-    def checked(self) -> None:
-        """A person has looked at both relays, and they are open: no doubt is left."""
-        self._watch.checked()
+        self.watch.note_relays(relays)
 
     def accuse(self, direction: Direction) -> Fault | None:
         """The fault of an order in this direction; None: the opposite relay is not suspected."""
-        return None if self._passes_doubt(direction) else self._watch.accuse(direction)
+        return None if self._passes_doubt(direction) else self.watch.accuse(direction)
 
     def rests(self) -> None:
         """No run is wanted."""
@@ -101,7 +76,7 @@ class RelayGate:
 
     def passed(self, run: Run, now_s: float) -> Run | Feed:
         """The run, or what is done while it waits."""
-        if self._passes_doubt(run.direction) or not self._watch.forbids(run.direction):
+        if self._passes_doubt(run.direction) or not self.watch.forbids(run.direction):
             self._waits_s = math.inf
             return run
         self._waits_s = min(self._waits_s, now_s)
@@ -113,7 +88,7 @@ class RelayGate:
         relays = self._relays
         if fault is None or relays.last is Direction.OFF:
             return fault
-        trust = self.trusts[0 if relays.last > 0 else 1]
+        trust = self.watch.trusts[0 if relays.last > 0 else 1]
         if trust is Trust.OPEN or relays.off_for_s(now_s) < SETTLED_AFTER_S:
             return fault
         way = WAYS[self._settings.axis, relays.last]
@@ -122,23 +97,25 @@ class RelayGate:
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
         waits = (WAITS,) if now_s - self._waits_s >= WAITS_SHOWN_AFTER_S else ()
-        doubted = doubts(self._settings.axis, self.trusts) if self._settings.attended else ()
-        return (*self._watch.notices, *doubted, *waits)
+        doubted = doubts(self._settings.axis, self.watch.trusts) if self._settings.attended else ()
+        return (*self.watch.notices, *doubted, *waits)
 
     def _passes_doubt(self, direction: Direction) -> bool:
         """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop.
 
         The first look at the axis with its supply on comes before that: a person may not have seen what it shows.
         """
-        if self._watch.looks:
+        if self.watch.looks:
             return False
-        plus, minus = self.trusts
+        plus, minus = self.watch.trusts
         return self._settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED
 
 
 def _new_watch(settings: SwitchedSettings, motors: Mapping[Direction, Motor], *, placed: bool) -> RelayWatch:
     axis, limits, homing, behind_s = settings.axis, settings.limits, settings.homing, settings.behind_s
     master, trusts, look = settings.master, settings.trusts, settings.look
+    if isinstance(homing, TimedHomingSettings):
+        return BlindWatch(axis, Range(homing.home_deg, homing.home_deg + homing.travel_deg), motors)
     if homing is None:
         return MotionWatch(axis, limits, motors, behind_s, master=master, trusts=trusts, placed=placed, look=look)
     return RunWatch(axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look)

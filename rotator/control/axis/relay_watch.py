@@ -11,12 +11,16 @@ from typing import Protocol
 from hw.ports import Direction
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.vain_runs import VainRuns
 from rotator.exchange.faults import Fault, Notice
 from rotator.exchange.motor import Motor, Trusts
 
 
 class RelayWatch(Protocol):
     """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
+
+    runs: VainRuns
+    """Those that were not seen to turn the axis."""
 
     @property
     def trusts(self) -> Trusts:

@@ -10,7 +10,6 @@ import math
 from collections.abc import Collection
 
 from hw.ports import Direction
-from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.relay_faults import limit_reached
 from rotator.control.axis.relay_gate import RelayGate
 from rotator.control.axis.relay_state import RelayState
@@ -22,12 +21,49 @@ from rotator.exchange.faults import Fault, Notice
 
 LAPSED_S = 1.0
 """After a late cycle the relay stays open this long, so that a slow computer does not make the relay chatter."""
+RESUME_SHARE = 0.5
+"""A motor that had to rest may run again when it has cooled to this share, after half of its rest."""
 
 
 def at_ends(angle_deg: float, limits: Range) -> tuple[Direction, ...]:
     """The directions in which an axis at this angle is at its limit, or past it."""
     beyond = angle_deg >= limits.max_deg, angle_deg <= limits.min_deg
     return tuple(way for way, there in zip(BOTH_WAYS, beyond, strict=True) if there)
+
+
+class Endurance:
+    """A leaky bucket: running fills it in `longest_run_s`, standing empties it in `rest_s`. Zero: no limit. There is no
+    sensor for the heat."""
+
+    def __init__(self, longest_run_s: float, rest_s: float) -> None:
+        self._longest_run_s = longest_run_s
+        self._cooling = longest_run_s / rest_s if rest_s > 0 else float("inf")
+        self._heat_s = 0.0
+        self._at_s: float | None = None
+        self._running = False
+        self.resting = False
+        """The motor has run for too long, and must not be started now."""
+
+    def note(self, now_s: float, *, running: bool) -> None:
+        """What the motor does from now on."""
+        if self._longest_run_s <= 0:
+            return
+        if self._at_s is not None:
+            passed_s = now_s - self._at_s
+            self._heat_s += passed_s if self._running else -passed_s * self._cooling
+            self._heat_s = max(0.0, self._heat_s)
+        self._at_s, self._running = now_s, running
+        if self._heat_s >= self._longest_run_s:
+            self.resting = True
+        elif self._heat_s <= RESUME_SHARE * self._longest_run_s:
+            self.resting = False
+
+    @property
+    def notice(self) -> Notice | None:
+        """Why the motor does not move; None while it may run."""
+        if not self.resting:
+            return None
+        return Notice(f"motor hot: it has run for {self._longest_run_s:g} s and has to rest", "MOTOR HOT")
 
 
 class RunPermit:

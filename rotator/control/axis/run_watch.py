@@ -11,11 +11,13 @@ from collections.abc import Mapping
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.contact_watch import ContactWatch
+from rotator.control.axis.estimator import Estimator
 from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.axis.relay_faults import WAYS, accusation, unstoppable
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.silent_runs import SilentRuns
+from rotator.control.axis.vain_runs import VainRuns
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind, Notice
 from rotator.exchange.motor import Motor, Trusts
@@ -64,6 +66,8 @@ class RunWatch:
         self._trusts = RelayTrusts(trusts)
         self._contact = ContactWatch(self._trusts, limits, period_s, self._period_deg, coast_s, look=look)
         self._silent = SilentRuns(axis)
+        self.runs = VainRuns(Estimator(motors, 0.0))
+        """A count shows no place between two pulses; `silent_runs` tells of its runs."""
         self._relays = RelayState()
         self._angle_deg: float | None = None
 

@@ -16,6 +16,8 @@ from hw.ports import Direction
 from rotator.control.axis.goals import JogGoal
 from rotator.control.axis.motion import Motion
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.settings import BrakeSettings, SpeedSettings
+from rotator.control.axis.throttle import Throttle
 from rotator.control.commands import Run
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
@@ -41,6 +43,10 @@ class Timing:
     """How long a command to a drive lives unless renewed."""
     period_s: float
     """How soon the next cycle comes. A stop that is due before it is left to the end of the lease."""
+    brake: BrakeSettings | None = None
+    """A brake that is released before a start; None: the motor starts at once."""
+    speed: SpeedSettings | None = None
+    """What an output can set the motor's speed to; None: it turns at full speed."""
 
 
 class SwitchedLaw:
@@ -50,6 +56,7 @@ class SwitchedLaw:
         self, motors: Mapping[Direction, Motor], timing: Timing, reach: tuple[float, float] = ANYWHERE
     ) -> None:
         self.motion = Motion(motors)
+        self.throttle = Throttle(timing.speed)
         self._timing = timing
         self._reach = reach
         self._taught = dict(motors)
@@ -65,7 +72,9 @@ class SwitchedLaw:
 
     def renewed(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
         """The same law for readings that mean other places than before."""
-        return SwitchedLaw(motors, self._timing, self._reach)
+        law = SwitchedLaw(motors, self._timing, self._reach)
+        law.throttle = self.throttle
+        return law
 
     def see(self, at_s: float, angle_deg: float) -> None:
         """A new good reading of the axis."""
@@ -81,6 +90,9 @@ class SwitchedLaw:
         if relays.direction is not self.motion.direction:
             wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
             self.motion.note_drive(now_s, relays.direction, wanted_deg)
+        if not relays.closed:
+            self.throttle.rest()
+        self.motion.note_pace(now_s, self.throttle.share)
 
     @property
     def learnt(self) -> tuple[Motor, Motor]:
@@ -113,6 +125,12 @@ class SwitchedLaw:
         if self._running is Direction.OFF and again:
             return self.rest(now_s)
         return self._go(now_s, target_deg)
+
+    def start_s(self, now_s: float) -> float:
+        """How long a start takes now, until its relay closes: while the brake holds, its release."""
+        brake = self._timing.brake
+        held = brake is not None and self._relays.off_for_s(now_s) >= brake.held_off_s
+        return brake.release_s if brake and held else 0.0
 
     def drive(self, now_s: float, direction: Direction) -> Run:
         """Drive in this direction at any angle of the axis; OFF: rest."""
@@ -148,10 +166,15 @@ class SwitchedLaw:
         """Along with a target that moves; the tolerance is on the sky."""
         rest_deg = self._rest_deg(now_s)
         direction = Direction.PLUS if path.angle_deg(now_s) > rest_deg else Direction.MINUS
-        speed_dps = self.motion.motors[self._running or direction].speed_dps
-        place_deg = self._within_reach(self._place_deg(path, rest_deg, speed_dps, tolerance_deg))
+        full_dps = self.motion.motors[self._running or direction].speed_dps
+        way_deg = path.angle_deg(now_s) - rest_deg
+        if self._running and self._along(now_s, path, full_dps):
+            return Run(self._running, now_s + self._timing.lease_s)
+        speed_dps = full_dps * self.throttle.mean(abs(way_deg) / full_dps)
+        start_s = self.start_s(now_s)
+        place_deg = self._within_reach(self._place_deg(path, rest_deg, speed_dps, tolerance_deg, start_s))
         if self._running is Direction.OFF:
-            crossing_s = now_s + abs(place_deg - rest_deg) / speed_dps / 2
+            crossing_s = now_s + start_s + abs(place_deg - rest_deg) / speed_dps / 2
             then_deg = path.angle_deg(crossing_s)
             staying_deg, going_deg = abs(then_deg - rest_deg), abs(then_deg - place_deg)
             on_sky_deg = staying_deg * math.sqrt(path.weight(crossing_s))
@@ -163,10 +186,21 @@ class SwitchedLaw:
                 return Run(Direction.OFF, now_s)
         return self._go(now_s, place_deg)
 
-    def _place_deg(self, path: Path, rest_deg: float, speed_dps: float, tolerance_deg: float) -> float:
+    def _along(self, now_s: float, path: Path, full_dps: float) -> bool:
+        """Whether the motor turns along with a target that is fast enough for it."""
+        soon_s = now_s + self._timing.period_s
+        rate_dps = (path.angle_deg(soon_s) - path.angle_deg(now_s)) / self._timing.period_s
+        behind_deg = path.angle_deg(now_s) - self.motion.angle_at(now_s)
+        way = self._running / full_dps
+        if self._stop_s is not None or not self.throttle.along(now_s, rate_dps * way, behind_deg * way):
+            return False
+        self._goal_deg = path.angle_deg(soon_s)
+        return True
+
+    def _place_deg(self, path: Path, rest_deg: float, speed_dps: float, tolerance_deg: float, start_s: float) -> float:
         """The place planned on this path. It is planned once for each path, because a path is replaced after 0.5 s."""
         if self._planned is None or self._planned[0] is not path:
-            self._planned = (path, next_place_deg(path, rest_deg, speed_dps, tolerance_deg))
+            self._planned = (path, next_place_deg(path, rest_deg, speed_dps, tolerance_deg, start_s))
         return self._planned[1]
 
     def _go(self, now_s: float, goal_deg: float) -> Run:
@@ -186,7 +220,10 @@ class SwitchedLaw:
         if left_deg <= 0:
             return self.rest(now_s)
         # The point where the axis would come to rest runs ahead at full speed from the first moment on.
-        left_s = left_deg / self.motion.motors[self._running].speed_dps
+        full_dps = self.motion.motors[self._running].speed_dps
+        if self._relays.closed:
+            self.throttle.towards(now_s, left_deg / full_dps)
+        left_s = left_deg / (full_dps * self.throttle.share)
         if left_s > self._timing.period_s:
             return Run(self._running, now_s + self._timing.lease_s)
         self._stop_s, self._nudged = now_s + left_s, False

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.known_path import KnownPath, Row, rows_around
 from rotator.control.sky.led import led
 from rotator.control.sky.mount import Mount, Range
@@ -20,7 +19,6 @@ from rotator.control.sky.route import STEP_S, Speeds, Way, is_seen
 from rotator.control.sky.steps import Trail, best_steps
 from rotator.control.sky.turn_timing import Change, change_of
 from rotator.control.sky.turning import lifted_between_deg
-from rotator.control.sky.way_goals import LEAST_WEIGHT
 from rotator.control.sky.ways import Leg, Route, best_route
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly, Step
 
@@ -42,6 +40,8 @@ class PlannedMotor:
     """By relays; else the motor goes to every angle by itself, and follows the path without steps."""
     alone: bool = False
     """It never runs together with the other motor: the supply of both is small."""
+    brake_s: float = 0.0
+    """A start takes so much longer after a while at rest: its brake is released first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,17 +72,14 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
     directions = path.directions(begin_s, PLAN_STEP_S)
     azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs, azimuth, speeds)
     up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]
-    flat = [
-        max(LEAST_WEIGHT, math.cos(math.radians(direction[1]))) ** 2 * weight
-        for direction, weight in zip(directions, up, strict=True)
-    ]
+    flat = [mount.azimuth_weight(direction[1]) ** 2 * weight for direction, weight in zip(directions, up, strict=True)]
     azimuth_plan = _axis_plan(Trail(begin_s, azimuths_deg, flat), azimuth, mount.azimuth, now_s)
     elevation_plan = _axis_plan(Trail(begin_s, elevations_deg, up), elevation, mount.elevation, now_s)
     if azimuth.alone:
 
         def off_deg(at_s: float, azimuth_deg: float, elevation_deg: float) -> float:
             direction = path.direction(at_s)
-            return great_circle_deg(azimuth_deg, elevation_deg, *direction) if is_seen(mount, *direction) else 0.0
+            return mount.off_deg((azimuth_deg, elevation_deg), direction) if is_seen(mount, *direction) else 0.0
 
         steps = before_azimuth(azimuth_plan.steps, elevation_plan.steps, speeds, off_deg)
         elevation_plan = replace(elevation_plan, steps=steps)
@@ -122,7 +119,8 @@ def _axis_plan(trail: Trail, motor: PlannedMotor, limits: Range, now_s: float) -
 def _steps(trail: Trail, motor: PlannedMotor, now_s: float) -> tuple[Step, ...]:
     first, *others = best_steps(trail, motor.speed_dps, PRICE * motor.tolerance_deg**3, motor.play_deg)
     # The antenna follows its motor later by as long as it coasts.
-    return Step(now_s, first.place_deg), *(Step(each.leave_s - motor.coast_s, each.place_deg) for each in others)
+    later_s = motor.coast_s + motor.brake_s
+    return Step(now_s, first.place_deg), *(Step(each.leave_s - later_s, each.place_deg) for each in others)
 
 
 def _axis_angles(
@@ -163,7 +161,7 @@ def _lift(mount: Mount, directions: Sequence[tuple[float, float]], change: Chang
     from_deg, there_deg = change.from_deg, change.there_deg
     begin, end = change.leaves_s / PLAN_STEP_S, (change.leaves_s + change.turns_s) / PLAN_STEP_S
     for moment in range(math.floor(begin), min(math.ceil(end) + 1, len(directions))):
-        share = min(max((moment - begin) / (end - begin), 0.0), 1.0)
+        share = min(max((moment * PLAN_STEP_S - change.leaves_s) / change.turns_s, 0.0), 1.0)
         axis_azimuth_deg = from_deg[0] + share * (there_deg[0] - from_deg[0])
         lifted_deg = lifted_between_deg(axis_azimuth_deg, directions[moment], (from_deg[1], there_deg[1]))
         if lifted_deg is not None:

@@ -8,17 +8,31 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, replace
 
+from hw.ports import Axis
 from rotator.control.refused import Refused
-from rotator.control.sky.angles import ZENITH_DEG, direction, turn_deg
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG, direction, great_circle_deg, turn_deg
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
 
 _EITHER_WAY_DEG = 1.0
 """A target that passes the zenith turns in azimuth by half a turn. As orders come in whole degrees, a turn that differs
 from half a turn by less than this may go either way."""
+LEAST_WEIGHT = 0.1
+"""Near the zenith azimuth hardly matters. But an azimuth that a person orders there must still turn the antenna."""
 _ROUNDS = 2
 """After this many rounds the azimuth for an elevation at its limit is right to 0.1°, with terms of up to 5°."""
+
+
+def counted_target(
+    fitted: Collection[Axis], antenna: tuple[float, float], target: tuple[float, float]
+) -> tuple[float, float]:
+    """The direction from which an error is counted. An axis that is not fitted misses no target: there the antenna's
+    own angle counts, and with azimuth alone both are compared at the horizon."""
+    if Axis.ELEVATION not in fitted:
+        return target[0], antenna[1]
+    return target if Axis.AZIMUTH in fitted else (antenna[0], target[1])
 
 
 class Unreachable(Refused):
@@ -48,12 +62,29 @@ class Range:
         """The same, stretched to hold this angle."""
         return Range(min(self.min_deg, angle_deg), max(self.max_deg, angle_deg))
 
+    def moved(self, by_deg: float) -> Range:
+        return Range(self.min_deg + by_deg, self.max_deg + by_deg)
+
     def widened(self, by_deg: float) -> Range:
         return Range(self.min_deg - by_deg, self.max_deg + by_deg)
 
     @property
     def middle_deg(self) -> float:
         return (self.min_deg + self.max_deg) / 2
+
+    @property
+    def endless(self) -> bool:
+        return self == ENDLESS
+
+    @property
+    def shown(self) -> Range:
+        """The same for people and programs: one turn, where it has no ends."""
+        return ONE_TURN if self.endless else self
+
+
+ENDLESS = Range(-3.6e9, 3.6e9)
+"""An axis without ends. Nothing turns for ten million turns, and a degree still has six digits there."""
+ONE_TURN = Range(0.0, FULL_TURN_DEG)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +113,8 @@ class Mount:
     model: PointingModel = PERFECT
     """How the mount really stands. Ranges, the park position and sectors are on the axes' own scales; the horizon is
     on the sky."""
+    fitted: tuple[Axis, ...] = tuple(Axis)
+    """The axes that the rotor has. One that it has not stands at the one angle of its range, and misses no target."""
 
     def axis_angles(
         self, azimuth_deg: float, elevation_deg: float | None, near_azimuth_deg: float, *, over: bool = False
@@ -93,7 +126,7 @@ class Mount:
         90°. Where azimuth does not reach a direction, the antenna goes over the top, if it may. `over`: it goes over
         the top for any direction.
         """
-        if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap
+        if azimuth_deg > 360.0 and self.azimuth.shown.holds(azimuth_deg):  # the sender names the overlap
             near_azimuth_deg = azimuth_deg
         if elevation_deg is None:
             level_deg, _ = self._angles(azimuth_deg, 0.0)
@@ -142,7 +175,8 @@ class Mount:
         return there_deg, elevation_deg
 
     def places(self, azimuth_deg: float, elevation_deg: float) -> list[tuple[float, float, bool]]:
-        """Every place at which the axes point in that direction, and whether it is over the top."""
+        """Every place at which the axes point in that direction, and whether it is over the top. Of an azimuth without
+        ends one place each."""
         ways = [(*self._angles(azimuth_deg, elevation_deg), False)]
         if self.flip and elevation_deg <= ZENITH_DEG:
             ways.append((*self._angles(azimuth_deg + 180.0, 180.0 - elevation_deg), True))
@@ -152,8 +186,39 @@ class Mount:
             for turn_deg in self._turns(way_deg)
         ]
 
+    def azimuth_weight(self, elevation_deg: float) -> float:
+        """How far on the sky one degree of azimuth moves the antenna, at least LEAST_WEIGHT, with a target so high.
+
+        An antenna that is not raised to its target turns to the side of it where it is seen: there a degree is one.
+        """
+        if Axis.ELEVATION not in self.fitted:
+            return 1.0
+        return max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
+
+    def off_deg(self, antenna: tuple[float, float], target: tuple[float, float]) -> float:
+        """How far off its target the antenna points, on the sky; with one axis alone, on that axis."""
+        return great_circle_deg(*antenna, *counted_target(self.fitted, antenna, target))
+
+    def near_deg(self, azimuth_deg: float, near_azimuth_deg: float) -> float:
+        """On an axis without ends: the same direction on the turn nearest to another angle; else as it is."""
+        if not self.azimuth.endless:
+            return azimuth_deg
+        return azimuth_deg + FULL_TURN_DEG * round((near_azimuth_deg - azimuth_deg) / FULL_TURN_DEG)
+
+    def about(self, azimuth_deg: float) -> Mount:
+        """An axis without ends meets each sector again in each turn: the mount with ends a turn and more away from this
+        angle, and with the sectors up to there. Any other mount as it is."""
+        if not self.azimuth.endless:
+            return self
+        first_deg = FULL_TURN_DEG * (azimuth_deg // FULL_TURN_DEG - 1)
+        turns_deg = [first_deg + FULL_TURN_DEG * turn for turn in range(3)]
+        sectors = [replace(each, azimuth=each.azimuth.moved(by_deg)) for by_deg in turns_deg for each in self.sectors]
+        return replace(self, azimuth=Range(first_deg, first_deg + 3 * FULL_TURN_DEG), sectors=tuple(sectors))
+
     def inside_deg(self, axis_azimuth_deg: float, axis_elevation_deg: float) -> float:
         """How far inside a sector, or its margin, this place is; 0 where it is free."""
+        if self.azimuth.endless:
+            return self.about(axis_azimuth_deg).inside_deg(axis_azimuth_deg, axis_elevation_deg)
         depths_deg = (
             sector.margin_deg
             + min(
@@ -209,14 +274,19 @@ class Mount:
 
     def _turn(self, azimuth_deg: float, near_deg: float) -> float:
         """The place on the scale that is nearest. Raises Unreachable."""
-        turns = self._turns(azimuth_deg)
+        turns = [self.near_deg(each, near_deg) for each in self._turns(azimuth_deg)]
         if not turns:
             limits = f"{self.azimuth.min_deg:g} to {self.azimuth.max_deg:g}"
             raise Unreachable(f"azimuth {azimuth_deg:g} is outside the rotor's range of {limits} degrees")
         return min(turns, key=lambda turn_deg: abs(turn_deg - near_deg))
 
     def _turns(self, azimuth_deg: float) -> list[float]:
-        """Every place on the scale that points there."""
+        """Every place on the scale that points there; the only one where azimuth is not fitted, one of them where it
+        has no ends."""
+        if Axis.AZIMUTH not in self.fitted:
+            return [self.azimuth.min_deg]
+        if self.azimuth.endless:
+            return [azimuth_deg % FULL_TURN_DEG]
         first = math.ceil((self.azimuth.min_deg - azimuth_deg) / 360.0)
         last = math.floor((self.azimuth.max_deg - azimuth_deg) / 360.0)
         return [azimuth_deg + 360.0 * turn for turn in range(first, last + 1)]

@@ -50,12 +50,12 @@ class Path:
         return index, (offset_s - OFFSETS_S[index]) / _WIDTHS_S[index]
 
 
-def next_place_deg(path: Path, angle_deg: float, speed_dps: float, tolerance_deg: float) -> float:
-    """Where to stand after the next move, if it began now."""
+def next_place_deg(path: Path, angle_deg: float, speed_dps: float, tolerance_deg: float, start_s: float = 0.0) -> float:
+    """Where to stand after the next move, if it were ordered now. `start_s`: how long a start takes."""
     price = PRICE * tolerance_deg**3
     place_deg = path.angles_deg[0]
     for _ in range(_ROUNDS):
-        place_deg = _best_place_deg(path, abs(place_deg - angle_deg) / speed_dps / 2, price)
+        place_deg = _best_place_deg(path, start_s + abs(place_deg - angle_deg) / speed_dps / 2, price)
     return place_deg
 
 

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
+from hw.ports import Axis
 from rotator.control.sky.mount import Mount
 
 STEP_S = 5.0
@@ -91,12 +92,14 @@ class Flown:
         """The error at each look; 0 while the target is not seen."""
         losses_s = [0.0]
         azimuth_deg = way.azimuth_deg
+        turned, raised = (axis in mount.fitted for axis in Axis)
         for direction_deg, elevation_deg in directions:
             azimuth_deg, axis_el_deg = mount.on_the_way(direction_deg, elevation_deg, azimuth_deg, flipped=way.flipped)
             kept_az_deg, kept_el_deg = mount.azimuth.nearest(azimuth_deg), mount.elevation.nearest(axis_el_deg)
+            weight = math.cos(math.radians(elevation_deg)) if raised else 1.0
             off_deg = math.hypot(
-                min(abs(azimuth_deg - kept_az_deg), 90.0) * math.cos(math.radians(elevation_deg)),
-                max(0.0, abs(axis_el_deg - kept_el_deg) - max(0.0, -elevation_deg)),
+                min(abs(azimuth_deg - kept_az_deg), 90.0) * weight if turned else 0.0,
+                max(0.0, abs(axis_el_deg - kept_el_deg) - max(0.0, -elevation_deg)) if raised else 0.0,
             )
             if mount.sectors:
                 off_deg += mount.inside_deg(kept_az_deg, kept_el_deg)

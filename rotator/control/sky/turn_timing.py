@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.route import STEP_S, Direction, Flown, Speeds
 from rotator.control.sky.turning import LIFTS_FROM_DEG, Place, lift_late_deg, lifted_between_deg, turned_deg
@@ -72,7 +71,7 @@ class _Turn:
             lifted = lifted_between_deg(azimuth_deg, target, between_deg)
             aim_deg = ends_deg if lifted is None else self._mount.elevation.nearest(lifted)
             elevation_deg = turned_deg(elevation_deg, aim_deg, self._speeds.elevation_dps * PLAN_STEP_S)
-            off_deg = great_circle_deg(azimuth_deg, elevation_deg, *target)
+            off_deg = self._mount.off_deg((azimuth_deg, elevation_deg), target)
             cost += error_cost_s(off_deg if lifted is None else off_deg + lift_late_deg(self._speeds))
             azimuth_deg = turned_deg(azimuth_deg, goal_deg, self._speeds.azimuth_dps * PLAN_STEP_S)
         return cost

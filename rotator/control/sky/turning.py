@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rotator.control.sky.angles import ZENITH_DEG, great_circle_deg, lifted_deg
+from rotator.control.sky.angles import ZENITH_DEG, lifted_deg
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.route import STEP_S, Direction, Flown, Speeds, is_seen
 
@@ -25,6 +25,7 @@ class Turning:
     """Directions are `STEP_S` apart."""
 
     def __init__(self, mount: Mount, directions: Sequence[Direction], speeds: Speeds) -> None:
+        self._mount = mount
         self._directions = directions
         self._speeds = speeds
         self._late_deg = lift_late_deg(speeds)
@@ -65,7 +66,7 @@ class Turning:
             stands_deg = turned_deg(stands_deg, aim_deg, self._speeds.elevation_dps * past_s)
             past_s = STEP_S
             if self._seen[number]:
-                off_deg = great_circle_deg(axis_azimuth_deg, stands_deg, azimuth_deg, max(0.0, elevation_deg))
+                off_deg = self._mount.off_deg((axis_azimuth_deg, stands_deg), (azimuth_deg, max(0.0, elevation_deg)))
                 errors_deg.append(off_deg if lifted is None else off_deg + self._late_deg)
         return errors_deg
 

@@ -6,7 +6,6 @@ it. Knows no order and no motor.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from rotator.control.sky.angles import direction
@@ -14,9 +13,6 @@ from rotator.control.sky.goal import EVEN, AimGoal, Goals
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.plan import Path
 from rotator.control.sky.route import Way
-
-LEAST_WEIGHT = 0.1
-"""Near the zenith azimuth hardly matters. But an azimuth that a person orders there must still turn the antenna."""
 
 
 class WayGoals:
@@ -69,7 +65,7 @@ class WayGoals:
             kept_deg = self._mount.azimuth.nearest(azimuth_deg)
             azimuths_deg.append(kept_deg)
             elevations_deg.append(self._mount.clear_deg(kept_deg, elevation_deg))
-        weights = [max(LEAST_WEIGHT, math.cos(math.radians(el_deg))) ** 2 for _, el_deg in directions]
+        weights = [self._mount.azimuth_weight(el_deg) ** 2 for _, el_deg in directions]
         return (
             AimGoal(azimuths_deg[0], self._azimuth_tolerance_deg, Path(now_s, azimuths_deg, weights)),
             AimGoal(elevations_deg[0], self._elevation_tolerance_deg, Path(now_s, elevations_deg, EVEN)),
@@ -79,5 +75,4 @@ class WayGoals:
         """The tolerance of azimuth on the sky: high up, a degree of azimuth moves the antenna by less than a degree."""
         if not self._on_sky:
             return self._azimuth_tolerance_deg
-        weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
-        return self._azimuth_tolerance_deg / weight
+        return self._azimuth_tolerance_deg / self._mount.azimuth_weight(elevation_deg)

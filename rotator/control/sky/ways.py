@@ -57,7 +57,7 @@ def best_route(
     nearest to this one is the first, as a plan of many passes has chosen it.
     """
     turning = Turning(mount, directions, speeds)
-    ways = [Flown(mount, directions, way) for way in possible_ways(mount, directions[0])]
+    ways = [Flown(mount, directions, way) for way in possible_ways(mount, directions[0], from_deg[0])]
     # cheapest[way][look]: what the rest costs from there on, being on this way; then where to change to, if anywhere.
     cheapest = [[0.0] * (len(directions) + 1) for _ in ways]
     changes: list[list[tuple[int, int] | None]] = [[None] * len(directions) for _ in ways]
@@ -122,12 +122,16 @@ def _apart(way: Way, other: Way) -> tuple[float, float]:
     return float(way.flipped is not other.flipped), abs(way.azimuth_deg - other.azimuth_deg)
 
 
-def possible_ways(mount: Mount, first: Direction) -> list[Way]:
-    """Every turn that reaches into the range, also one that begins beyond it; over the top where the antenna may."""
+def possible_ways(mount: Mount, first: Direction, from_azimuth_deg: float = 0.0) -> list[Way]:
+    """Every turn that reaches into the range, also one that begins beyond it; over the top where the antenna may.
+    Without ends: the turn that begins nearest to `from_azimuth_deg`."""
     azimuth = mount.azimuth
     found = []
     for flipped in (False, True) if mount.flip else (False,):
         begin_deg, _ = mount.on_the_way(*first, first[0], flipped=flipped)
+        if azimuth.endless:
+            found.append(Way(mount.near_deg(begin_deg, from_azimuth_deg), flipped))
+            continue
         turns = range(
             math.floor((azimuth.min_deg - 360.0 - begin_deg) / 360.0),
             math.ceil((azimuth.max_deg + 360.0 - begin_deg) / 360.0) + 1,

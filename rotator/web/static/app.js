@@ -10,7 +10,7 @@ import { Passes } from "/passes.js";
 import { Control, Front, Headline, Links, Mode, Notes, Strip } from "/panels.js";
 import { Setup } from "/setup.js";
 import { Sky } from "/sky.js";
-import { act, html, render, useEffect, useEvery, useState } from "/ui.js";
+import { act, fitted, html, render, useEffect, useEvery, useState } from "/ui.js";
 
 const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000;
 let tell = () => {}, version;
@@ -48,22 +48,22 @@ function Antenna({ station, now, hello, fresh, say }) {
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
     <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /></div>
     <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${setDraft} />
-      ${paired && html`<${ThereFromSky} draft=${draft} say=${say} />`}</div>
+      ${paired && html`<${ThereFromSky} station=${station} draft=${draft} say=${say} />`}</div>
     <section class="panel hand" aria-label="By hand">
       <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
       <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />
-      ${paired ? html`<${JogPad} live=${live} say=${say} />
+      ${paired ? html`<${JogPad} station=${station} live=${live} say=${say} />
         <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
         <${Track} now=${now} known=${station.where} say=${say} />
-        <${Asks} label="Park" question=${`The antenna turns to ${station.park[0]}°, ${station.park[1]}° and stays there until you let it move again. Park it?`}
+        <${Asks} label="Park" question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Park it?`}
           yes="Park it" onYes=${() => act(post("park"), say)} />
         <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
     </section>
-    <div class="panel dials"><${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />
-      <${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} /></div>
+    <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}
+      ${station.elevation.fitted && html`<${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} />`}</div>
     <div class="panel front-panel"><${Front} now=${now} /><${Notes} now=${now} /></div>
     <div class="panel links-panel"><${Links} now=${now} /></div>
-    <div class="panel chart-panel"><${Chart} past=${past} /></div>
+    <div class="panel chart-panel"><${Chart} past=${past} axes=${fitted(station)} /></div>
   </main>`;
 }
 

@@ -88,9 +88,9 @@ export class Live {
     // A sleeping computer's clock may stand still, so the last picture looks fresh when it wakes.
     addEventListener("pageshow", (event) => event.persisted && this.connect());
     addEventListener("online", () => this.connect());
-    addEventListener("rotator-stop", () => {
+    addEventListener("rotator-stop", (event) => {
       this.letGo();
-      this.send({ stop: true });
+      this.send({ stop: true, key: event.detail });
     });
   }
 

@@ -24,7 +24,7 @@ export function Calibrate({ axis, settings, least, moving, say, onEnd }) {
   if (told?.axis && !running) return html`<p>The ${told.axis} is being calibrated now.</p>`;
   return html`${count > 0 && html`<pre class="guide-lines" ref=${lines} role="log" tabindex="0" aria-label=${`What the calibration of the ${told.axis ?? "axis"} says`}>${told.lines.join("\n")}</pre>`}
     ${!running && html`<button type="button" class="go" disabled=${settings.busy !== ""} onClick=${begin}>Calibrate the ${axis}</button>
-      <p class="about">The box starts anew for it: the antenna stops, programs are kept away, and the ${axis} turns by your presses alone, 2 s at most.</p>`}
+      <p class="about">The box starts anew for it: the antenna stops, programs are kept away, and the ${axis} turns by your presses alone, 2 s at most, or as far as you agree to.</p>`}
     ${running && html`<p class="prompt" role="status"><b>${told.prompt}</b></p><p class="state">${told.state}</p>
       <div class="chips" role="group" aria-label=${`Turn the ${axis}`}>${TURNS[axis].flatMap(([key, name]) => [[key, `${name} a little`], [key.toUpperCase(), `${name} 2 s`]]).map(([key, name]) => html`<button type="button" onClick=${() => press(key)}>${name}</button>`)}
         <button type="button" onClick=${() => press("s")}>Stand still</button></div>

@@ -9,8 +9,8 @@ function columns(past, axis) {
   return [past.map((row) => row[0] / 60), past.map((row) => row[target]), past.map((row) => row[angle]), past.map((row) => row[5])];
 }
 
-export function Chart({ past }) {
-  const [axis, setAxis] = useState("azimuth"), [dark, setDark] = useState(DARK.matches), place = useRef(null), plot = useRef(null);
+export function Chart({ past, axes }) {
+  const [axis, setAxis] = useState(axes[0]), [dark, setDark] = useState(DARK.matches), place = useRef(null), plot = useRef(null);
   useEffect(() => {
     const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(name).trim();
     const lines = { stroke: colour("--muted"), grid: { stroke: colour("--line"), width: 1 }, ticks: { stroke: colour("--line") }, font: "12px system-ui" };
@@ -34,7 +34,7 @@ export function Chart({ past }) {
   }, []);
   useEffect(() => plot.current?.setData(columns(past, axis)), [past]);
   return html`<section class="chart"><div class="choice" role="group" aria-label="Axis of the chart">
-      ${Object.keys(AXES).map((each) => html`<button type="button" aria-pressed=${axis === each} onClick=${() => setAxis(each)}>${each}</button>`)}
+      ${axes.length > 1 && axes.map((each) => html`<button type="button" aria-pressed=${axis === each} onClick=${() => setAxis(each)}>${each}</button>`)}
       <span class="key antenna">antenna</span><span class="key target">target</span><span class="key off">off</span></div>
     <div class="plot" ref=${place} role="img" aria-label=${`The ${axis} of antenna and target in the last ten minutes, and how far off the antenna was`}></div></section>`;
 }

@@ -2,9 +2,7 @@
 import { post } from "/box.js";
 import { Asks } from "/hand.js";
 import { number, NumberField } from "/numbers.js";
-import { act, html, useState } from "/ui.js";
-
-const AXES = ["azimuth", "elevation"];
+import { act, fitted, html, useState } from "/ui.js";
 
 /** At an end stop a motor with current stands as one without: the box cannot see whether the relay has opened. */
 function Doubt({ now, axis, say }) {
@@ -17,7 +15,7 @@ function Doubt({ now, axis, say }) {
 /** Nothing but a count tells where such an axis stands: it is homed after a calibration, and when the count is doubted. */
 function Homes({ now, axis, say }) {
   const state = now.status[axis];
-  if (state.angle_source !== "counted") return null;
+  if (!state.homeable) return null;
   if (state.homing) return html`<p role="status">The ${axis} looks for its low end stop. STOP ends it.</p>`;
   const way = axis === "azimuth" ? "CCW" : "down";
   return html`<${Asks} label=${`Home the ${axis}`} question=${`The motor turns ${way} to the end stop, a little back, and there again, whatever is in its way: watch the antenna. Home the ${axis}?`} yes="Home it"
@@ -37,6 +35,6 @@ function Confirms({ now, axis, say }) {
     <button type="submit">It stands there</button></form></details>`;
 }
 
-export function Errands({ now, say, axes = AXES }) {
+export function Errands({ now, say, axes = fitted(now.status) }) {
   return axes.map((axis) => html`<${Doubt} now=${now} axis=${axis} say=${say} /><${Homes} now=${now} axis=${axis} say=${say} /><${Confirms} now=${now} axis=${axis} say=${say} />`);
 }

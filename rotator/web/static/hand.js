@@ -1,10 +1,11 @@
 // By hand: buttons that turn the antenna while they are held, a target to point at or track, places that are kept, park.
-import { post } from "/box.js";
+import { post, read } from "/box.js";
 import { number, NumberField } from "/numbers.js";
-import { act, html, useEffect, useRef, useState } from "/ui.js";
+import { act, fitted, html, useEffect, useRef, useState } from "/ui.js";
 
 const CLICK_S = 0.5;
-const TURNS = [["up", "Up", "▲"], ["ccw", "CCW", "◀"], ["cw", "CW", "▶"], ["down", "Down", "▼"]];
+const TURNS = [["up", "Up", "▲", "elevation"], ["ccw", "CCW", "◀", "azimuth"], ["cw", "CW", "▶", "azimuth"], ["down", "Down", "▼", "elevation"]];
+const TYPED_MS = 250;
 const PRESETS = [["North", 0, 0], ["East", 90, 0], ["South", 180, 0], ["West", 270, 0]];
 
 function HeldButton({ live, turn, name, arrow, say }) {
@@ -34,7 +35,7 @@ function HeldButton({ live, turn, name, arrow, say }) {
 
 const RELEASES = ["pointerup", "pointercancel", "keyup"];
 
-export function JogPad({ live, say }) {
+export function JogPad({ station, live, say }) {
   // The window hears the release wherever the finger is by then, and when the pad goes, so does the hold.
   useEffect(() => {
     const leave = () => live.letGo();
@@ -42,7 +43,7 @@ export function JogPad({ live, say }) {
     return () => (RELEASES.forEach((release) => removeEventListener(release, leave)), leave());
   }, []);
   return html`<div class="jogpad" role="group" aria-label="Turn by hand, while a button is held">
-    ${TURNS.map(([turn, name, arrow]) => html`<${HeldButton} key=${turn} live=${live} turn=${turn} name=${name} arrow=${arrow} say=${say} />`)}
+    ${TURNS.filter(([, , , axis]) => station[axis].fitted).map(([turn, name, arrow]) => html`<${HeldButton} key=${turn} live=${live} turn=${turn} name=${name} arrow=${arrow} say=${say} />`)}
     <p class="hint">hold</p></div>`;
 }
 
@@ -66,7 +67,8 @@ const pointAt = ([azimuth_deg, elevation_deg], say) => act(post("point", { azimu
 /** `draft`: azimuth and elevation as a person has typed or pressed them; null: neither yet. */
 export function Target({ station, draft, setDraft, say }) {
   const [presets, setPresets] = useState(kept);
-  const [az, el] = draft ?? ["", ""], there = directionOf(draft);
+  const [az, el] = draft ?? [station.azimuth.fitted ? "" : "0", station.elevation.fitted ? "" : "0"], there = directionOf(draft);
+  const shown = (place) => fitted(station).map((axis) => `${place[axis === "azimuth" ? 0 : 1]}°`).join(" / ");
   const keep = (list) => (setPresets(list), localStorage.setItem("presets", JSON.stringify(list)));
   const point = (event) => {
     event.preventDefault();
@@ -74,22 +76,22 @@ export function Target({ station, draft, setDraft, say }) {
   };
   return html`<form class="aim" onSubmit=${point}>
     <div class="fields">
-      <${NumberField} label="Azimuth" required least=${station.azimuth.min_deg} value=${az} onInput=${(text) => setDraft([text, el])} />
-      <${NumberField} label="Elevation" required least=${station.elevation.min_deg} value=${el} onInput=${(text) => setDraft([az, text])} />
+      ${station.azimuth.fitted && html`<${NumberField} label="Azimuth" required least=${station.azimuth.min_deg} value=${az} onInput=${(text) => setDraft([text, el])} />`}
+      ${station.elevation.fitted && html`<${NumberField} label="Elevation" required least=${station.elevation.min_deg} value=${el} onInput=${(text) => setDraft([az, text])} />`}
       <button type="submit" class="go">Point there</button>
     </div>
     <div class="chips" role="group" aria-label="Kept places">
       ${presets.map(([name, atAz, atEl], index) => html`<span class="chip"><button type="button" onClick=${() => setDraft([atAz, atEl])}>${name}</button>
         ${index >= PRESETS.length && html`<button type="button" aria-label=${`Forget ${name}`} onClick=${() => keep(presets.filter((_, each) => each !== index))}>×</button>`}</span>`)}
-      ${there && html`<button type="button" class="quiet" onClick=${() => keep([...presets, [there.map((each) => `${each}°`).join(" / "), ...there]])}>keep ${there[0]}° / ${there[1]}°</button>`}
+      ${there && html`<button type="button" class="quiet" onClick=${() => keep([...presets, [shown(there), ...there]])}>keep ${shown(there)}</button>`}
     </div>
   </form>`;
 }
 
 /** A direction that was pressed on the sky: the next step stands there, too. */
-export function ThereFromSky({ draft, say }) {
+export function ThereFromSky({ station, draft, say }) {
   const there = directionOf(draft);
-  return there && html`<p><button type="button" class="go" onClick=${() => pointAt(there, say)}>Turn to ${there[0]}°, ${there[1]}°</button></p>`;
+  return there && html`<p><button type="button" class="go" onClick=${() => pointAt(there, say)}>Turn to ${station.elevation.fitted ? `${there[0]}°, ${there[1]}°` : `${there[0]}°`}</button></p>`;
 }
 
 /** What became of the latest request, where the status does not show it; empty: nothing to say. */
@@ -101,16 +103,29 @@ function trackingSaid(tracking) {
 }
 
 export function Track({ now, known, say }) {
-  const [name, setName] = useState("");
+  const [name, setName] = useState(""), [place, setPlace] = useState(null);
+  // The box knows countries and callsigns. An answer that comes when other words stand there is of no use.
+  useEffect(() => {
+    setPlace(null);
+    if (!name.trim()) return undefined;
+    let current = true;
+    const asked = setTimeout(() => read(`bearing?to=${encodeURIComponent(name)}`).then((found) => current && found.place && setPlace(found), () => {}), TYPED_MS);
+    return () => {
+      current = false;
+      clearTimeout(asked);
+    };
+  }, [name]);
   const track = (event) => {
     event.preventDefault();
     act(post("track", { target: name }), say);
   };
   const tracks = now.status.tracks, said = trackingSaid(now.tracking);
   return html`<form class="track" onSubmit=${track}>
-    <label>Track<input required maxlength="100" placeholder=${known ? "ISS, Moon, Sun, JN58td" : "the box does not know its place"} value=${name}
+    <label>Track<input required maxlength="100" placeholder=${known ? "ISS, Moon, JN58td, Japan, VK" : "the box does not know its place"} value=${name}
       onInput=${(event) => setName(event.target.value)} /></label>
-    <button type="submit">Track</button>
+    <button type="submit">${place ? `Short path ${Math.round(place.azimuth_deg) % 360}°` : "Track"}</button>
+    ${place && html`<button type="button" onClick=${() => act(post("track", { target: `${name.trim()} long` }), say)}>Long path ${Math.round(place.azimuth_deg + 180) % 360}°</button>
+      <span class="hint-line">${place.place[0].toUpperCase()}${place.place.slice(1)}, ${place.km} km</span>`}
     ${tracks && html`<button type="button" onClick=${() => act(post("track", { target: "off" }), say)}>End ${tracks.name}</button>`}
     ${said && html`<p class="hint-line" role="status">${said}</p>`}
   </form>`;

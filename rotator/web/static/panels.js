@@ -1,10 +1,16 @@
 // The parts of the box as it stands: what it does, who moves it, its display, its relays, its links, what is wrong.
 import { boxTime, post, resume } from "/box.js";
-import { act, degrees, html, useEffect, useState } from "/ui.js";
+import { act, degrees, fitted, html, useEffect, useState } from "/ui.js";
 
 function minutes(text) {
   const left = Math.max(0, Math.round((new Date(text) - boxTime()) / 60_000));
   return left < 60 ? `${left} min` : `${Math.floor(left / 60)} h ${String(left % 60).padStart(2, "0")} min`;
+}
+
+/** An angle that is reckoned by time, with how far it may be off. */
+function about(now, axis) {
+  const { angle_source, homeable, error_deg } = now.status[axis], angle = degrees(now[`${axis}_deg`]);
+  return angle_source === "modelled" && homeable ? `≈ ${angle} ± ${error_deg == null ? "?" : `${Math.ceil(error_deg)}°`}` : angle;
 }
 
 export function Headline({ now, hello, next }) {
@@ -12,8 +18,8 @@ export function Headline({ now, hello, next }) {
   return html`<section class=${`headline ${now.mood}`} aria-label="What the box does">
     <div role="status"><h2>${now.headline}</h2></div>
     <dl class="angles">
-      <div><dt>azimuth</dt><dd>${degrees(now.azimuth_deg)}</dd><dd class="to">${now.azimuth_target_deg != null ? `to ${degrees(now.azimuth_target_deg)}` : " "}</dd></div>
-      <div><dt>elevation</dt><dd>${degrees(now.elevation_deg)}</dd><dd class="to">${now.elevation_target_deg != null ? `to ${degrees(now.elevation_target_deg)}` : " "}</dd></div>
+      ${fitted(now.status).map((axis) => html`<div><dt>${axis}</dt><dd>${about(now, axis)}</dd>
+        <dd class="to">${now[`${axis}_target_deg`] != null ? `to ${degrees(now[`${axis}_target_deg`])}` : " "}</dd></div>`)}
     </dl>
     <p class="facts">
       ${azimuth.missing.length + elevation.missing.length > 0 && html`<span>a new box begins with <a href="#setup">Setup</a></span>`}
@@ -73,7 +79,7 @@ export function Strip({ now, paired, fresh, beside, said, say }) {
   const shown = quiet ? (inSight ? "idle" : "afloat") : "";
   return html`<section class=${`strip ${beside ? "beside" : ""} ${shown}`} aria-label="Where the antenna points">
     <p class=${`glance ${now.mood} ${fresh ? "" : "old"}`} aria-hidden=${beside ? "true" : null}><b>${now.headline}</b>
-      <span>${degrees(now.azimuth_deg)} / ${degrees(now.elevation_deg)}</span></p>
+      <span>${fitted(now.status).map((axis) => about(now, axis)).join(" / ")}</span></p>
     <${Troubles} now=${now} paired=${paired} say=${say} />
     <p class="said" role="status">${said}</p></section>`;
 }
@@ -97,11 +103,11 @@ export function Notes({ now }) {
   return html`<ul class="notes" aria-label="Notes">${now.notes.map((note) => html`<li>${note}</li>`)}</ul>`;
 }
 
-const LAMPS = [["ccw", "CCW"], ["cw", "CW"], ["down", "DOWN"], ["up", "UP"]];
+const LAMPS = { azimuth: [["ccw", "CCW"], ["cw", "CW"]], elevation: [["down", "DOWN"], ["up", "UP"]] };
 
 /** `again`: a second time, where a narrow screen shows the front of the box further down. */
 function Lamps({ now, again }) {
-  return html`<ul class=${`lamps ${again ? "again" : ""}`} aria-label="Relays" aria-hidden=${again ? "true" : null}>${LAMPS.map(([lamp, name]) => html`<li class=${now.lamps[lamp]}>
+  return html`<ul class=${`lamps ${again ? "again" : ""}`} aria-label="Relays" aria-hidden=${again ? "true" : null}>${fitted(now.status).flatMap((axis) => LAMPS[axis]).map(([lamp, name]) => html`<li class=${now.lamps[lamp]}>
     <i aria-hidden="true"></i>${name}<span class="only-read"> relay ${now.lamps[lamp]}</span></li>`)}</ul>`;
 }
 

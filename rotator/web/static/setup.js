@@ -5,7 +5,7 @@ import { Errands } from "/errands.js";
 import { Asks } from "/hand.js";
 import { Header } from "/header.js";
 import { Missing, Proposed, Settings, ready, useSettings } from "/settings.js";
-import { act, html, useEffect, useRef, useState } from "/ui.js";
+import { act, fitted, html, useEffect, useRef, useState } from "/ui.js";
 
 const JUST_MS = 5000, ASKS = /^(C2?|B|p|\\?get_pos|AZ EL|AI1;?|:GZ#|\?)$/i;
 const RELAYS = [["cw", "azimuth CW"], ["ccw", "azimuth CCW"], ["up", "elevation up"], ["down", "elevation down"]];
@@ -46,7 +46,7 @@ function Relays({ now, hello, say }) {
   const mine = now.status.held_by === hello.source;
   return html`<p>Take the antenna first: then no program moves it. Each press closes one relay for 0.2 s. Watch the lamps of the relay board, and the motor.</p>
     ${!mine && html`<button type="button" class="go" onClick=${() => act(post("take"), say)}>Take the antenna</button>`}
-    <div class="chips" role="group" aria-label="Close one relay for 0.2 s">${RELAYS.map(([turn, name]) => html`<button type="button" disabled=${!mine || now.status.moving} onClick=${() => act(post("pulse", { turn }), say)}>Pulse ${name} <span class=${`pulse ${now.lamps[turn]}`}>${now.lamps[turn]}</span></button>`)}</div>
+    <div class="chips" role="group" aria-label="Close one relay for 0.2 s">${RELAYS.filter(([, name]) => fitted(now.status).includes(name.split(" ")[0])).map(([turn, name]) => html`<button type="button" disabled=${!mine || now.status.moving} onClick=${() => act(post("pulse", { turn }), say)}>Pulse ${name} <span class=${`pulse ${now.lamps[turn]}`}>${now.lamps[turn]}</span></button>`)}</div>
     ${mine && html`<button type="button" onClick=${() => act(post("give-back"), say)}>Give it back to the programs</button>`}
     <${Errands} now=${now} say=${say} />
     <p class="about">The wrong relay, or none: change its GPIO in <code>[relays]</code> below. The antenna turns the wrong way: exchange the two numbers of that axis.</p>`;
@@ -115,18 +115,18 @@ function Step({ number, title, done, children, open }) {
 export function Setup({ now, hello, say }) {
   const settings = useSettings(say, hello);
   const { file } = settings, made = ready(settings), of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
-  const calibrated = (axis) => (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
+  const calibrated = (axis) => !now.status[axis].fitted ? "not fitted" : (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
   const missing = html`<${Missing} settings=${settings} now=${now} />`;
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
   return html`<div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
     <${Step} number="1" title="Which rotor" done=${file?.values.rotor?.type}><${Rotor} ...${of} /><//>
     <${Step} number="2" title="Wiring" done=${file?.values.rotor?.hardware === "pi" ? "on this Pi" : "simulated"}><${Wiring} settings=${settings} say=${say} /><//>
     <${Step} number="3" title="Try each relay"><${Relays} now=${now} hello=${hello} say=${say} />${some(["relays"])}<//>
-    <${Step} number="4" title="Read the sensors"><${Sensor} now=${now} axis="azimuth" at="0" /><${Sensor} now=${now} axis="elevation" at="1" />
+    <${Step} number="4" title="Read the sensors">${fitted(now.status).map((axis) => html`<${Sensor} now=${now} axis=${axis} at=${axis === "azimuth" ? 0 : 1} />`)}
       <p class="about">Turn the rotor by hand or by its own box: the reading follows smoothly, and stands with it.</p>${some(["azimuth.sensor", "elevation.sensor", "adc"])}<//>
-    <${Step} number="5" title="Calibrate the azimuth" done=${calibrated("azimuth")}>${made ? html`<${Calibrate} axis="azimuth" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} />` : missing}<${Errands} now=${now} axes=${["azimuth"]} say=${say} /><//>
-    <${Step} number="6" title="Calibrate the elevation" done=${calibrated("elevation")}>${made ? html`<${Calibrate} axis="elevation" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} />` : missing}<${Errands} now=${now} axes=${["elevation"]} say=${say} /><//>
-    <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount", "mount.forbidden"], ["min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon", "name", "azimuth_deg", "elevation_deg"])}<//>
+    ${["azimuth", "elevation"].map((axis, at) => html`<${Step} number=${5 + at} title=${`Calibrate the ${axis}`} done=${calibrated(axis)}>${!now.status[axis].fitted ? html`<p>This rotor has no ${axis}.</p>`
+      : html`${made ? html`<${Calibrate} axis=${axis} settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} />` : missing}<${Errands} now=${now} axes=${[axis]} say=${say} />`}<//>`)}
+    <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount", "mount.forbidden"], ["endless", "min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon", "name", "azimuth_deg", "elevation_deg"])}<//>
     <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}><${Clock} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
     <${Step} number="10" title="Open it to the network">${made ? html`<${Network} ...${of} />` : missing}<//>

@@ -1,10 +1,11 @@
 // STOP, and nothing else: a script of its own that is loaded first, needs no other file and no new browser.
 // It acts before, while and after the rest of the page does. Each try is also told to the page as the event
-// "rotator-stop", so that the open WebSocket carries the STOP too.
+// "rotator-stop", so that the open WebSocket carries the STOP too. Both carry the key of the press: it counts once.
 (function () {
   "use strict";
 
   var TRIES = 40, ANSWER_MS = 1500, AGAIN_MS = 250, SAME_PRESS_MS = 1000;
+  var page = Date.now().toString(36) + Math.random().toString(36).slice(2);
   var round = 0, unheard = false, pressedMs = -SAME_PRESS_MS;
 
   function say(text) {
@@ -27,9 +28,11 @@
 
   function send(mine, tries) {
     if (mine !== round) return;
-    window.dispatchEvent(new CustomEvent("rotator-stop"));
+    var key = page + "-" + mine;
+    window.dispatchEvent(new CustomEvent("rotator-stop", { detail: key }));
     var request = new XMLHttpRequest();
     request.open("POST", "/api/stop");
+    request.setRequestHeader("Idempotency-Key", key);
     request.timeout = ANSWER_MS;
     request.onloadend = function () {
       if (mine !== round) return;

@@ -9,6 +9,9 @@ export const html = htm.bind(h);
 
 export const degrees = (angle, digits = 1) => (angle == null ? "---" : `${angle.toFixed(digits)}°`);
 
+/** The axes that the rotor has. `of`: the status, or the facts of the box. */
+export const fitted = (of) => ["azimuth", "elevation"].filter((axis) => of[axis].fitted);
+
 let acts = 0;
 
 /** A button that does something at the box, and says why it does not. What was pressed last has the last word. */

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.control.axis.endurance import Endurance
+from rotator.control.axis.run_permit import Endurance
 
 
 def after(endurance: Endurance, *spells: tuple[float, bool]) -> bool:

@@ -103,8 +103,8 @@ def test_hours_of_standing_are_quiet(noise_deg: float) -> None:
     assert bench.watch.notices == ()
 
 
-@pytest.mark.parametrize(("opens_s", "most_s"), [(0.0, 1.0), (0.05, 1.0), (0.2, 2.0)])
-def test_a_stop_and_the_same_order_at_once_leave_a_stalled_motor_its_first_run(opens_s: float, most_s: float) -> None:
+@pytest.mark.parametrize("opens_s", [0.0, 0.05, 0.2])
+def test_a_stop_and_the_same_order_leave_a_stalled_motor_what_its_first_run_has_shown(opens_s: float) -> None:
     bench = Bench()
     bench.drive(PLUS)
     assert bench.pass_by(1.0) is None
@@ -113,7 +113,7 @@ def test_a_stop_and_the_same_order_at_once_leave_a_stalled_motor_its_first_run(o
     bench.drive(PLUS)
     name, after_s = bench.time_to_fault(3.0)
     assert name == "motor runs and pot stands still"
-    assert most_s - 1.0 < after_s < most_s
+    assert 0.0 < after_s < 1.0
 
 
 @pytest.mark.parametrize("way", [OFF, PLUS])
@@ -281,7 +281,7 @@ def test_a_healthy_reversal_hardly_waits(noise_deg: float) -> None:
     for way in (PLUS, MINUS, PLUS, MINUS):
         bench.run(way, 4.0)
         bench.drive(OFF)
-        bench.pass_by(0.6)
+        bench.pass_by(0.6 if noise_deg < 0.4 else 1.0)
         assert not bench.watch.forbids(Direction(-way))
 
 

@@ -100,6 +100,12 @@ def test_at_its_limit_no_jog_begins(angle_deg: float, way: Direction, over: bool
     assert (LAW.jog(10.0, angle_deg, way, UNTIL_S, None, settling=False) is None) is over
 
 
+@pytest.mark.parametrize(("angle_deg", "way"), [(0.0, MINUS), (-40.0, MINUS), (450.0, PLUS)])
+def test_an_axis_that_does_not_know_its_place_is_jogged_past_its_limits(angle_deg: float, way: Direction) -> None:
+    steer = LAW.jog(10.0, angle_deg, way, UNTIL_S, None, settling=False, lost=True)
+    assert steer == Steer(angle_deg, SPEED_DPS * way, UNTIL_S)
+
+
 def test_a_jog_that_has_reached_its_limit_is_held_there() -> None:
     """`hold` would let it come to rest beyond."""
     sent = Sent(Steer(450.0, 0.0, UNTIL_S), 9.0, PLUS)

@@ -36,7 +36,7 @@ def gate(settings: SwitchedSettings = SETTINGS, **known: object) -> RelayGate:
 def stood(a_gate: RelayGate, from_s: float, seconds: float, condition: Condition = NORMAL) -> float:
     """It stands at 200°. Returns the moment after that."""
     for step in range(1, round(seconds / 0.05) + 1):
-        a_gate.see(from_s + 0.05 * step, 200.0, condition)
+        a_gate.watch.see(from_s + 0.05 * step, 200.0, condition)
     return from_s + seconds
 
 
@@ -108,8 +108,8 @@ def test_a_person_who_watches_does_not_pass_an_axis_whose_contact_changes_by_its
 
 def test_a_person_who_has_looked_leaves_no_doubt() -> None:
     a_gate = gate(trusts=(DOUBTED, WELDED))
-    a_gate.checked()
-    assert a_gate.trusts == (OPEN, OPEN)
+    a_gate.watch.checked()
+    assert a_gate.watch.trusts == (OPEN, OPEN)
 
 
 # --- new readings
@@ -118,12 +118,12 @@ def test_a_person_who_has_looked_leaves_no_doubt() -> None:
 @pytest.mark.parametrize("settings", [SETTINGS, COUNTED], ids=["measured", "counted"])
 def test_when_the_readings_mean_other_places_what_is_known_of_the_relays_stays(settings: SwitchedSettings) -> None:
     a_gate = gate(settings, trusts=(DOUBTED, OPEN), look=True)
-    a_gate.rescale(MOTORS, placed=True)
-    assert a_gate.trusts == (DOUBTED, OPEN)
+    a_gate.watch.rescale(MOTORS, placed=True)
+    assert a_gate.watch.trusts == (DOUBTED, OPEN)
     assert a_gate.passed(Run(PLUS, 10.3), 10.0) == Run(OFF, 10.0), "it has still to be seen standing"
     seen = gate(settings, look=True)
     now_s = stood(seen, 10.0, 5.0)
-    seen.rescale(MOTORS, placed=True)
+    seen.watch.rescale(MOTORS, placed=True)
     assert seen.passed(Run(PLUS, now_s + 0.3), now_s) == Run(PLUS, now_s + 0.3)
 
 
@@ -176,7 +176,7 @@ def test_but_not_while_it_may_still_coast_or_is_driven_or_was_seen_to_stop(maste
 @pytest.mark.parametrize("homing", [True, False])
 def test_an_axis_that_looks_for_its_stop_may_turn_back_there(homing: bool) -> None:
     a_gate, now_s = gate(COUNTED), 10.0
-    a_gate.homes(homing=homing, failed=False)
+    a_gate.watch.homes(homing=homing, failed=False)
     switch = Switch(a_gate.note_relays)
     switch.to(now_s, MINUS)
     for changes in range(8):
@@ -188,5 +188,5 @@ def test_an_axis_that_looks_for_its_stop_may_turn_back_there(homing: bool) -> No
 
 def test_an_axis_that_measures_knows_no_homing() -> None:
     a_gate = gate()
-    a_gate.homes(homing=True, failed=False)
-    assert a_gate.trusts == (OPEN, OPEN)
+    a_gate.watch.homes(homing=True, failed=False)
+    assert a_gate.watch.trusts == (OPEN, OPEN)

@@ -95,5 +95,5 @@ def test_a_run_that_is_forbidden_does_not_wait_for_its_relay() -> None:
         a_permit.permitted(RUN, 10.2, 0.05, ends=(), switches=())
         assert gate.waiting
     for step in range(60):
-        gate.see(10.3 + 0.05 * step, 200.0, NORMAL)
+        gate.watch.see(10.3 + 0.05 * step, 200.0, NORMAL)
     assert a_permit.permitted(RUN, 14.0, 0.05, ends=(), switches=()) is RUN

@@ -35,7 +35,9 @@ class Watched:
     """An axis at rest at 100°; a test says what else is read of it."""
 
     def __init__(self, settings: SwitchedSettings = COUNTS) -> None:
-        gate = RelayGate(settings, {PLUS: MOTOR, MINUS: MOTOR}, lease_s=0.25, placed=True)
+        self.gate = gate = RelayGate(
+            settings, {PLUS: MOTOR, MINUS: MOTOR}, lease_s=0.25, placed=settings.calibration is not None
+        )
         self.faults = SwitchedFaults(settings, gate)
         self._sensing = Sensing(AZ, ANYTHING, settings.calibration)
         self._relays = RelayState()
@@ -55,11 +57,11 @@ class Watched:
 
     def drive(self, way: Direction) -> None:
         self._relays = self._relays.changed(self.now_s, way)
-        self.faults.note_relays(self._relays, MOTOR.speed_dps if way else 0.0)
+        self.faults.note_relays(self._relays)
 
     @property
     def kind(self) -> FaultKind | None:
-        return self.faults.fault.kind if self.faults.fault else None
+        return self.faults.attempts.fault.kind if self.faults.attempts.fault else None
 
 
 def lost(why: str) -> Condition:
@@ -80,8 +82,8 @@ def test_a_count_that_gets_lost_is_a_fault_that_says_what_it_needs() -> None:
     axis.look(looks=20)
     assert axis.look(lost("pulses at rest"))
     assert axis.kind is FaultKind.COUNT_LOST
-    assert axis.faults.fault is not None
-    assert axis.faults.fault.measured == "homing (pulses at rest)"
+    assert axis.faults.attempts.fault is not None
+    assert axis.faults.attempts.fault.measured == "homing (pulses at rest)"
     assert axis.faults.acknowledge(axis.now_s, by_person=True)
     assert not axis.look(lost("pulses at rest"), looks=20), "it is said once"
 
@@ -187,12 +189,12 @@ def test_presses_in_vain_are_forgotten_when_a_person_acknowledges_and_a_link_doe
     axis = Watched(replace(POT, calibration=None))
     axis.look(looks=10)
     for _ in range(3):
-        assert not axis.faults.vain_presses
+        assert not axis.gate.watch.runs.pressed
         axis.drive(PLUS)
         axis.look(looks=30)
         axis.drive(OFF)
         axis.look(looks=30)
-    assert axis.faults.vain_presses
+    assert axis.gate.watch.runs.pressed
     assert axis.faults.tries(axis.now_s).pressed
     axis.faults.acknowledge(axis.now_s, by_person=by_person)
-    assert axis.faults.vain_presses is not by_person
+    assert axis.gate.watch.runs.pressed is not by_person

@@ -10,6 +10,7 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.settings import BrakeSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.commands import Run
 from rotator.control.sky.plan import OFFSETS_S, Path
@@ -25,9 +26,11 @@ BOTH_WAYS = pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
 class Axis:
     """A motor with a first-order lag, cycled at 20 Hz; its relay obeys leases to the moment."""
 
-    def __init__(self, at_deg: float = 100.0, reach: tuple[float, float] = ANYWHERE) -> None:
+    def __init__(
+        self, at_deg: float = 100.0, reach: tuple[float, float] = ANYWHERE, brake: BrakeSettings | None = None
+    ) -> None:
         motor = Motor(SPEED_DPS, SPEED_DPS * LAG_S)
-        self.law = SwitchedLaw({PLUS: motor, MINUS: motor}, Timing(LEASE_S, PERIOD_S), reach)
+        self.law = SwitchedLaw({PLUS: motor, MINUS: motor}, Timing(LEASE_S, PERIOD_S, brake), reach)
         self.now_s, self.angle_deg, self.turning_dps = 20.0, at_deg, 0.0
         self.relay, self.until_s, self.relays = OFF, 0.0, RelayState()
         self.starts = 0
@@ -168,6 +171,23 @@ def test_it_goes_past_a_moving_target_and_lets_it_drift_back(
     assert min(errors_deg) < -1.0, "ahead of it"
     assert sum(errors_deg) / len(errors_deg) == pytest.approx(0.0, abs=mean_deg)
     assert max(map(abs, errors_deg)) < worst_deg
+
+
+def test_while_its_brake_holds_it_sets_off_earlier_and_for_a_further_place() -> None:
+    def sets_off_s(axis: Axis) -> float:
+        planned, from_s = path(axis.now_s, 100.0, 1.0), axis.now_s
+        while axis.law.follow(axis.now_s, planned, 4.0).direction is OFF:
+            axis.cycle(Run(OFF, axis.now_s))
+        return axis.now_s - from_s
+
+    braked = Axis(brake=BrakeSettings(release_s=1.0, held_off_s=5.0))
+    assert sets_off_s(braked) < sets_off_s(Axis()) - 0.2
+    # Just after a run it is still off.
+    axis = Axis(brake=BrakeSettings(release_s=1.0, held_off_s=5.0))
+    axis.approach(110.0, 4.0)
+    assert axis.law.start_s(axis.now_s) == 0.0
+    axis.approach(110.0, 5.0)
+    assert axis.law.start_s(axis.now_s) == 1.0
 
 
 def test_a_smaller_tolerance_costs_more_starts() -> None:

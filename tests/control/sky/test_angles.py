@@ -9,12 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.control.sky.angles import Vector, direction_of, dot, great_circle_deg, lifted_deg, turn_deg, unit
+from tests.tables import every_row
 
 azimuths = st.floats(-720, 720)
 elevations = st.floats(-90, 180)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("start_deg", "end_deg", "turn"),
     [(0, 90, 90), (350, 10, 20), (10, 350, -20), (0, 180, -180), (180, 0, -180), (90, 450, 0), (-10, 10, 20)],
 )
@@ -29,7 +30,7 @@ def test_a_turn_is_at_most_half_a_circle_and_arrives(start_deg: float, end_deg: 
     assert math.cos(math.radians(start_deg + turn - end_deg)) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("a", "b", "angle_deg"),
     [
         ((0, 0), (90, 0), 90),  # along the horizon an azimuth is an angle on the sky
@@ -59,7 +60,7 @@ def test_it_is_the_same_both_ways(az_a: float, el_a: float, az_b: float, el_b: f
 # --- vectors: to the east, to the north and up
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("direction", "vector"),
     [
         ((0, 0), (0, 1, 0)),

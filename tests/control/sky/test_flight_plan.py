@@ -20,6 +20,7 @@ AZIMUTH, ELEVATION = PlannedMotor(6.0, 0.17, 4.0), PlannedMotor(2.7, 0.17, 4.0)
 MOTEUS = PlannedMotor(30.0, 0.0, 0.2, switched=False)
 
 
+@pytest.mark.long
 @given(
     path=SATELLITES,
     mount=st.sampled_from([FULL, SINGLE, OVER]),

@@ -65,8 +65,11 @@ def test_a_motor_on_relays_leaves_at_once_for_the_first_place_and_then_step_by_s
     assert 424.0 < steps[-1].place_deg < 430.0
 
 
-def test_a_motor_that_coasts_leaves_earlier_by_that_time() -> None:
-    exact, coasting = (told(replace(SWITCHED, coast_s=coast_s)).azimuth.steps for coast_s in (0.0, 0.6))
+@pytest.mark.parametrize(
+    "late", [replace(SWITCHED, coast_s=0.6), replace(SWITCHED, coast_s=0.0, brake_s=0.6)], ids=["coast", "brake"]
+)
+def test_a_motor_that_coasts_or_has_a_brake_to_release_leaves_earlier_by_that_time(late: PlannedMotor) -> None:
+    exact, coasting = (told(motor).azimuth.steps for motor in (replace(SWITCHED, coast_s=0.0), late))
     assert coasting[0] == exact[0]
     assert [b.leave_s - a.leave_s for a, b in zip(exact[1:], coasting[1:], strict=True)] == pytest.approx(
         [-0.6] * (len(exact) - 1)

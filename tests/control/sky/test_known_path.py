@@ -5,11 +5,12 @@ from __future__ import annotations
 import pytest
 
 from rotator.control.sky.known_path import KnownPath, Row
+from tests.tables import every_row
 
 PATH = KnownPath(((100.0, 350.0, 10.0), (110.0, 20.0, 40.0), (130.0, 10.0, 20.0)))
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("at_s", "direction"),
     [
         (99.0, (350.0, 10.0)),
@@ -31,7 +32,7 @@ def test_it_begins_with_the_first_row_and_ends_with_the_last() -> None:
     assert (PATH.begin_s, PATH.end_s) == (100.0, 130.0)
 
 
-@pytest.mark.parametrize(("from_s", "count"), [(100.0, 7), (101.0, 6), (130.0, 1), (131.0, 1), (900.0, 1)])
+@every_row(("from_s", "count"), [(100.0, 7), (101.0, 6), (130.0, 1), (131.0, 1), (900.0, 1)])
 def test_directions_from_a_moment_to_the_end(from_s: float, count: int) -> None:
     assert PATH.directions(from_s, 5.0) == [PATH.direction(from_s + 5.0 * index) for index in range(count)]
 

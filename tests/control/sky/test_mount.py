@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.mount import Mount, Range, Unreachable
+from tests.tables import every_row
 
 FULL_EL, HALF_EL = Range(0, 180), Range(0, 90)
 G5500 = Mount(Range(0, 450), FULL_EL)
@@ -21,7 +22,7 @@ MOUNTS = st.sampled_from([G5500, CIRCLE, SOUTH_STOP, LOW_BEAM])
 # --- azimuth: which turn
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("mount", "azimuth_deg", "near_deg", "axis_deg"),
     [
         # 0 to 360: one turn for each direction, and both ends are north

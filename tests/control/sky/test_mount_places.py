@@ -7,6 +7,7 @@ import pytest
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.mount import Mount, Range, Sector, Unreachable
 from rotator.control.sky.pointing_model import PointingModel
+from tests.tables import every_row
 
 FULL_EL = Range(0, 180)
 G5500 = Mount(Range(0, 450), FULL_EL)
@@ -97,7 +98,7 @@ def test_each_turn_and_each_way_over_the_top_is_a_place() -> None:
 # --- trees and roofs
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "high_deg"),
     [
         (10, 4),
@@ -124,7 +125,7 @@ def test_one_point_is_a_horizon_of_the_same_height_all_round() -> None:
     assert G5500.horizon_deg(20) == 0
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("place", "clear_deg"),
     [
         ((100, 30), 30),
@@ -155,7 +156,7 @@ def test_limits_count_for_more_than_trees() -> None:
 # --- forbidden sectors
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("place", "inside_deg"),
     [
         ((110, 15), 12),
@@ -184,7 +185,7 @@ def test_of_two_sectors_the_deeper_one_counts() -> None:
 # --- ways
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("order", "from_deg", "flipped", "axes"),
     [
         ((10, 20), 350, False, (370, 20)),
@@ -200,7 +201,7 @@ def test_a_way_goes_on_the_short_way_also_beyond_the_limits(
     assert FLIPS.on_the_way(*order, from_deg, flipped=flipped) == axes
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("azimuth_deg", "from_deg", "axis_deg"),
     [
         (280, 100, 280),

@@ -8,6 +8,7 @@ from rotator.control.sky.known_path import Row
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.named_turns import axis_rows, names_turns, on_the_sky, smooth_turns
 from rotator.control.sky.timed_table import TimedTable
+from tests.tables import every_row
 
 MOUNT = Mount(
     Range(0.0, 450.0), Range(0.0, 180.0), sectors=(Sector("mast", Range(200.0, 210.0), Range(0.0, 60.0), 2.0),)
@@ -65,7 +66,7 @@ def test_below_the_horizon_the_elevation_rests() -> None:
     assert rows_of((0.0, 430.0, -5.0)) == ((0.0, 430.0, 0.0),)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("point", "said"),
     [
         ((10.0, 460.0, 20.0), "line 3: azimuth 460.0°, elevation 20.0° is outside the rotor's azimuth range of 0° to"),

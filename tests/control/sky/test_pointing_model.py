@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from rotator.control.sky.angles import great_circle_deg, turn_deg, unit
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
+from tests.tables import every_row
 
 term = st.floats(-5, 5)
 models = st.builds(PointingModel, term, term, term, term, term, term)
@@ -48,7 +49,7 @@ def test_the_boom_is_where_the_axes_turned_one_after_the_other_bring_it(
     )
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("model", "axes", "boom"),
     [
         (PointingModel(ia_deg=2), (100, 30), (98, 30)),

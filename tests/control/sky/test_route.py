@@ -6,6 +6,7 @@ import pytest
 
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.route import STEP_S, Speeds, Way, best_way
+from tests.tables import every_row
 
 G5500 = Mount(Range(0.0, 450.0), Range(0.0, 180.0))
 NO_OVERLAP = Mount(Range(0.0, 360.0), Range(0.0, 180.0), flip=True)
@@ -80,7 +81,7 @@ def test_of_two_changes_the_one_that_takes_less_time_is_made(elevation_dps: floa
     assert found == (Way(181.0, flipped=True) if flipped else Way(1.0, flipped=False))
 
 
-@pytest.mark.parametrize("before_deg", [-4.0, -1.0, 1.0, 4.0, 20.0, 60.0])
+@every_row("before_deg", [-4.0, -1.0, 1.0, 4.0, 20.0, 60.0])
 def test_a_change_to_a_way_that_does_not_reach_the_target_yet_waits_for_the_end_of_the_range(before_deg: float) -> None:
     """Begun earlier it would save nothing, and the target may turn back."""
     first_deg = 360.0 - before_deg

@@ -109,6 +109,7 @@ def check(machine: Machine, seed: str, *, back: bool) -> None:
     assert all(-reach_deg <= stream.past_deg(at_s) <= reach_deg for at_s in turns), told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("back", [False, True])
 @pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.name)
 def test_the_turn_begins_at_the_seam_and_only_if_the_stream_crosses_it(machine: Machine, back: bool) -> None:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import pytest
-
 from hw.ports import Axis, Direction
 from rotator.control.sky.mount import Range, Sector
 from rotator.control.sky.sectors import UNKNOWN, Box, box_at, kept, may_sweep, ways_out
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
@@ -37,7 +36,7 @@ def test_along_its_edge_is_beside_it() -> None:
     assert turn(0, 35, 450, 35)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("place", "ways"),
     [
         ((105, 10), {(AZ, MINUS)}),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import math
 
 import pytest
 from hypothesis import given
@@ -61,33 +60,6 @@ def test_a_motor_that_jumps_reaches_the_least_cost_of_all_curves(
     steps = best_steps(trail, FAST_DPS, price)
     late = PLAN_STEP_S * sum((b - a) ** 2 for a, b in itertools.pairwise(angles_deg))
     assert error(trail, ways(trail, steps, FAST_DPS)) + price * len(steps) <= least_cost(trail, price) + late + 1e-6
-
-
-def test_a_target_that_stands_needs_one_step() -> None:
-    steps = best_steps(Trail(100.0, [50.0] * 2000, [1.0] * 2000), 6.0, 10.0)
-    assert [step.place_deg for step in steps] == [pytest.approx(50.0)]
-
-
-@pytest.mark.parametrize(("price", "starts"), [(880.0, 1), (870.0, 3)])
-def test_a_target_that_goes_away_and_comes_back_is_followed_only_if_two_starts_cost_less(
-    price: float, starts: int
-) -> None:
-    """It stands for 20 s at each place. All in one piece, the error costs 1750 degrees squared times seconds."""
-    trail = Trail(0.0, [place_deg for place_deg in (0, 10, 0, 0, 0, 0, 0, 0) for _ in range(40)], [1.0] * 320)
-    assert len(best_steps(trail, FAST_DPS, price)) == starts
-
-
-@pytest.mark.parametrize("rate_dps", [0.1, -0.1, 0.5, -1.0])
-def test_a_steady_target_is_met_in_equal_steps_centred_on_it(rate_dps: float) -> None:
-    """For a motor much faster than its target the least cost is at width³ = 6 × price × rate."""
-    price, count = 200.0, 1200
-    trail = Trail(0.0, [rate_dps * PLAN_STEP_S * moment for moment in range(count)], [1.0] * count)
-    steps = best_steps(trail, 60.0, price)
-    widths = [b.place_deg - a.place_deg for a, b in itertools.pairwise(steps[1:-1])]
-    expected_deg = math.copysign((6 * price * abs(rate_dps)) ** (1 / 3), rate_dps)
-    assert all(width == pytest.approx(expected_deg, rel=0.15) for width in widths)
-    off_deg = [a - b for a, b in zip(ways(trail, steps, 60.0), trail.angles_deg, strict=True)]
-    assert sum(off_deg) / count == pytest.approx(0.0, abs=0.1 * abs(expected_deg))
 
 
 def test_a_motor_slower_than_its_target_leaves_before_the_target_comes() -> None:

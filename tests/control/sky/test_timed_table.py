@@ -11,12 +11,13 @@ from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.timed_table import TimedTable, hindrance, smooth
 from rotator.rehearsal.passes import SHIPPED, read_pass
+from tests.tables import every_row
 
 WIDE = Mount(Range(0, 450), Range(0, 180))
 PASSES = sorted(SHIPPED.glob("*.csv"))
 
 
-@pytest.mark.parametrize("shipped", PASSES, ids=lambda path: path.stem)
+@every_row("shipped", PASSES)
 def test_rows_of_a_pass_ten_seconds_apart_are_enough(shipped: str) -> None:
     """A straight line between them would be off by more than 1° on most passes."""
     flown = read_pass(SHIPPED / shipped)

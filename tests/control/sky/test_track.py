@@ -12,6 +12,7 @@ import pytest
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.track import COASTING_S, KEPT_S, LEAST_ORDERS, LONGEST_GAP_S, THIN_S, Track
+from tests.tables import every_row
 
 Direction = tuple[float, float]
 
@@ -54,8 +55,8 @@ def test_it_knows_the_target_between_the_orders_and_ahead_of_them(
     assert off_deg(track, 75.0) < soon_deg
 
 
-@pytest.mark.parametrize("stood_s", [3.0, 20.0, 300.0])
-@pytest.mark.parametrize(("decimals", "at_once_deg", "soon_deg"), [(0, 11.0, 11.0), (1, 11.0, 3.5), (2, 11.0, 2.5)])
+@every_row("stood_s", [3.0, 20.0, 300.0])
+@every_row(("decimals", "at_once_deg", "soon_deg"), [(0, 11.0, 11.0), (1, 11.0, 3.5), (2, 11.0, 2.5)])
 def test_a_target_that_is_held_where_it_will_rise_and_then_begins_to_move(
     decimals: int, at_once_deg: float, soon_deg: float, stood_s: float
 ) -> None:
@@ -67,6 +68,7 @@ def test_a_target_that_is_held_where_it_will_rise_and_then_begins_to_move(
             assert off_deg(track, second + 20.0) < (at_once_deg if second < LEAST_ORDERS else soon_deg), second
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("decimals", "now_deg", "in_20_s_deg"),
     [(0, 0.12, 0.45), (1, 0.015, 0.065), (2, 0.003, 0.028)],

@@ -19,6 +19,7 @@ from rotator.control.sky.turning import Turning, turned_deg
 from rotator.control.sky.ways import Leg, possible_ways
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan
 from tests.control.sky.test_ways import SATELLITES, SINGLE
+from tests.tables import every_row
 
 LOW = Mount(Range(0.0, 450.0), Range(0.0, 90.0))
 HALF = Mount(Range(0.0, 180.0), Range(0.0, 180.0), flip=True)
@@ -64,6 +65,7 @@ def test_no_turn_begins_before_its_look_also_where_the_end_of_the_pass_cuts_it_s
         assert change.leaves_s >= max(0.0, (look - 1) * STEP_S)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("beside_deg", [3.0, 5.0, 7.0])
 def test_the_turn_has_its_middle_at_the_culmination(beside_deg: float) -> None:
     path = overhead(beside_deg)
@@ -81,8 +83,9 @@ def test_the_turn_has_its_middle_at_the_culmination(beside_deg: float) -> None:
     assert max(map(abs, off_s)) < 2.0
 
 
-@pytest.mark.parametrize("beside_deg", [1.0, 4.0, 7.0, 9.0])
-@pytest.mark.parametrize("late_s", [0.0, 1.5, 3.0])
+@pytest.mark.long
+@every_row("beside_deg", [1.0, 4.0, 7.0, 9.0])
+@every_row("late_s", [0.0, 1.5, 3.0])
 def test_servos_of_180_degrees_lose_no_second_under_a_target_within_9_degrees_of_the_zenith(
     beside_deg: float, late_s: float
 ) -> None:
@@ -91,6 +94,7 @@ def test_servos_of_180_degrees_lose_no_second_under_a_target_within_9_degrees_of
     assert _worst_deg(overhead(beside_deg), Antenna(HALF, motor, motor, (160.0, 0.0)), late_s, over=True) <= LOST_DEG
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("beside_deg", [-0.2, -1.0, -2.0])
 def test_a_slow_motor_without_relays_leads_a_target_near_the_zenith(beside_deg: float) -> None:
     """A digital pot: azimuth turns half round for 30 s, the first half of it before the culmination."""

@@ -36,24 +36,6 @@ def test_after_two_minutes_without_a_wish_the_next_swing_begins_at_once_again(qu
     assert QUIET_S == 120.0
 
 
-def test_a_wish_that_was_not_granted_counts_as_a_wish_too() -> None:
-    swings = Swings()
-    assert waited_s(swings, 0.0) == 0.0
-    for wish_s in (100.0, 200.0, 300.0):
-        assert not swings.may_begin(wish_s), "the last wish is less than two minutes ago"
-        swings.forgo()
-
-
-def test_a_target_that_comes_back_into_the_range_waits_anew_when_it_leaves_it_again() -> None:
-    swings = Swings()
-    assert waited_s(swings, 0.0) == 0.0
-    assert not swings.may_begin(10.0)
-    assert not swings.may_begin(12.5)
-    swings.forgo()
-    assert not swings.due(13.5)
-    assert waited_s(swings, 14.0) == 3.0
-
-
 def test_a_target_that_stays_is_due_although_no_order_comes() -> None:
     swings = Swings()
     assert not swings.due(0.0), "no target has waited"

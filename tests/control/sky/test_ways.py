@@ -14,6 +14,7 @@ from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.route import LOST_DEG, STEP_S, Speeds
 from rotator.control.sky.ways import EVEN_S, Route, best_route
 from rotator.rehearsal.passes import SHIPPED, read_pass
+from tests.tables import every_row
 
 G5500 = Speeds(6.0, 2.7)
 FULL = Mount(Range(0, 450), Range(0, 180))
@@ -42,8 +43,9 @@ def fits(path: KnownPath) -> bool:
     return any(low_deg + turn >= 0 and high_deg + turn <= 450 for turn in (-360, 0, 360))
 
 
-@pytest.mark.parametrize("mirrored", [False, True])
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.long
+@every_row("mirrored", [False, True])
+@every_row("name", EVERY)
 def test_no_pass_is_unwound_that_fits_into_450_degrees(name: str, mirrored: bool) -> None:
     path = path_of(name, mirrored=mirrored)
     route = routed(FULL, path)
@@ -54,8 +56,9 @@ def test_no_pass_is_unwound_that_fits_into_450_degrees(name: str, mirrored: bool
         assert route.lost_s < 62
 
 
-@pytest.mark.parametrize("mirrored", [False, True])
-@pytest.mark.parametrize("name", NORTH)
+@pytest.mark.long
+@every_row("mirrored", [False, True])
+@every_row("name", NORTH)
 def test_over_the_top_no_pass_through_north_is_unwound(name: str, mirrored: bool) -> None:
     route = routed(OVER, path_of(name, mirrored=mirrored))
     assert [leg.flown.way.flipped for leg in route.legs] == [True]
@@ -180,6 +183,7 @@ SATELLITES = st.builds(
 )
 
 
+@pytest.mark.long
 @given(path=SATELLITES, from_deg=st.tuples(st.floats(0, 360), st.floats(0, 90)), early_s=st.floats(0, 300))
 def test_no_way_loses_more_than_staying_on_the_one_it_begins_with(
     path: KnownPath, from_deg: tuple[float, float], early_s: float

@@ -72,40 +72,6 @@ def test_finds_an_order_in_what_arrives(bench: Bench, sent: bytes, azimuth_deg: 
 
 
 @pytest.mark.parametrize(
-    "sent",
-    [
-        b"",
-        b"\r\n\r\n",
-        b"C2\r",
-        b"S\r",
-        b"M180\r",
-        b"R\rU\r",
-        b"235 025\r",
-        b"W\r",
-        b"W235\r",
-        b"W235\r025\r",
-        b"W235025\r",
-        b"W2350 025\r",
-        b"W235 0251\r",
-        b"W-35 025\r",
-        b"W 235 025\r",
-        b"W235.5 25.0\r",
-        b"AZ235.0 EL25.0\r",
-        "W\u0662\u0663\u0665 025".encode(),  # 235 in digits that are not ASCII
-        bytes(range(256)) * 3,
-    ],
-)
-def test_ignores_everything_else_and_says_nothing(bench: Bench, sent: bytes) -> None:
-    bench.antenna_at(100, 50)
-
-    bench.hear(sent)
-
-    assert bench.sketch.target == Direction(0, 0)
-    assert bench.closed() == set()
-    assert bench.board.host_receive() == b""
-
-
-@pytest.mark.parametrize(
     ("azimuth_deg", "elevation_deg", "closed"),
     [
         (235, 25, set()),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from firmware_sim.arduino.station import ArduinoStation
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.motor import MotorSpec
@@ -21,6 +23,7 @@ def switched_on(azimuth_deg: float = 0.0, elevation_deg: float = 0.0) -> Arduino
     )
 
 
+@pytest.mark.long
 def test_w235_025_turns_clockwise_and_up_until_within_4_degrees() -> None:
     station = switched_on()
 

@@ -10,6 +10,7 @@ import random
 import pytest
 
 from firmware_sim.chips.ads1115 import Ads1115
+from tests.tables import every_row
 
 WAKE_UP_S = 25e-6
 SINGLE_A0_128 = 0xC583  # OS, AIN0 to GND, +-2.048 V, single-shot, 128 SPS, comparator off
@@ -53,10 +54,9 @@ class Bench:
 INPUT_V = (1.0, 0.75, 0.5, 0.25)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("mux", "volts"),
     [(0, 0.25), (1, 0.75), (2, 0.5), (3, 0.25), (4, 1.0), (5, 0.75), (6, 0.5), (7, 0.25)],
-    ids=["A0-A1", "A0-A3", "A1-A3", "A2-A3", "A0", "A1", "A2", "A3"],
 )
 def test_multiplexer(mux: int, volts: float) -> None:
     assert Bench(*INPUT_V).convert(0x8583 | mux << 12) == volts / 2.048 * 32768
@@ -65,7 +65,7 @@ def test_multiplexer(mux: int, volts: float) -> None:
 # --- 9.6.3 Config Register: PGA; 9.3.3 table "Full-Scale Range and Corresponding LSB Size"
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("pga", "lsb_uv"),
     [(0, 187.5), (1, 125.0), (2, 62.5), (3, 31.25), (4, 15.625), (5, 7.8125), (6, 7.8125), (7, 7.8125)],
 )
@@ -74,7 +74,7 @@ def test_gain(pga: int, lsb_uv: float) -> None:
     assert counts == pytest.approx(0.2 / (lsb_uv * 1e-6), abs=0.51)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("volts", "counts"), [(2.048, 0x7FFF), (3.3, 0x7FFF), (0.0625e-3, 1), (0.0, 0), (-0.0625e-3, -1), (-0.2, -3200)]
 )
 def test_output_code_of_a_single_ended_input(volts: float, counts: int) -> None:
@@ -85,7 +85,7 @@ def test_output_code_of_a_single_ended_input(volts: float, counts: int) -> None:
 # --- 9.4.2.1 Single-Shot Mode
 
 
-@pytest.mark.parametrize(("code", "rate_sps"), list(enumerate((8, 16, 32, 64, 128, 250, 475, 860))))
+@every_row(("code", "rate_sps"), list(enumerate((8, 16, 32, 64, 128, 250, 475, 860))))
 def test_a_conversion_takes_its_data_rate_and_the_wake_up(code: int, rate_sps: int) -> None:
     bench = Bench(1.024)
     bench.configure(0xC503 | code << 5)

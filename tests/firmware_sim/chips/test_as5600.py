@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from firmware_sim.chips.as5600 import As5600, MagnetFault
+from firmware_sim.chips.as5600 import As5600
+from firmware_sim.chips.magnet import MagnetFault
+from tests.tables import every_row
 
 
 class Bench:
@@ -17,7 +19,7 @@ class Bench:
         return self.chip.read(count)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("turn", "octets"),
     [(0.0, "00 00"), (0.25, "04 00"), (0.5, "08 00"), (4095 / 4096, "0f ff"), (1.0, "00 00"), (-0.25, "0c 00")],
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from firmware_sim.chips.mcp3208 import Mcp3208
+from tests.tables import every_row
 
 VREF_V = 4.096
 STEP_V = VREF_V / 4096
@@ -36,13 +37,13 @@ def test_one_conversion_as_in_figure_5_1(idle: bool) -> None:
     assert clocked(reading(0xA5C), "1 1 000 0" + "0" * 13, idle=idle) == "zzzzzz" + "0" + f"{0xA5C:012b}"
 
 
-@pytest.mark.parametrize("channel", range(8))
+@every_row("channel", range(8))
 def test_each_input_by_its_number(channel: int) -> None:
     seen = clocked(reading(1000 + channel, channel), f"1 1 {channel:03b} 0" + "0" * 13)
     assert int(seen[-12:], 2) == 1000 + channel
 
 
-@pytest.mark.parametrize(("volts", "code"), [(-0.1, 0), (0.0, 0), (VREF_V / 2, 2048), (VREF_V, 4095), (5.0, 4095)])
+@every_row(("volts", "code"), [(-0.1, 0), (0.0, 0), (VREF_V / 2, 2048), (VREF_V, 4095), (5.0, 4095)])
 def test_the_code_is_a_share_of_vref(volts: float, code: int) -> None:
     chip = Mcp3208(VREF_V)
     chip.inputs[0] = lambda: volts

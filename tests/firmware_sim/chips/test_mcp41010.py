@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
 from firmware_sim.chips.mcp41010 import Mcp41010
+from tests.tables import every_row
 
 
 def clock_in(chip: Mcp41010, bits: str, *, idle: bool = False) -> None:
@@ -17,7 +16,7 @@ def clock_in(chip: Mcp41010, bits: str, *, idle: bool = False) -> None:
     chip.pins(cs=True, sck=idle, si=False)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("bits", "step"),
     [
         ("00010001 01000000", 0x40),
@@ -32,7 +31,7 @@ def clock_in(chip: Mcp41010, bits: str, *, idle: bool = False) -> None:
         ("00010001 11110000 00010001 00000111", 0x07),  # 32: the last 16 count
     ],
 )
-@pytest.mark.parametrize("idle", [False, True], ids=["mode 0,0", "mode 1,1"])
+@every_row("idle", [False, True])
 def test_frames(bits: str, step: int, idle: bool) -> None:
     chip = Mcp41010()
     clock_in(chip, bits, idle=idle)

@@ -15,6 +15,7 @@ from firmware_sim.moteus.bus import SimCan
 from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer, crc8
 from firmware_sim.moteus.multiplex import Kind, Read, Write
+from tests.tables import every_row
 
 RESTING = "2100002f010000803e0000000000000000230d301900"
 """Stopped at 0.25 revolutions, 24 V, 25 degrees, no fault."""
@@ -95,7 +96,7 @@ def test_dropped_garbled_and_late() -> None:
 # --- the frame
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("frame", "parts"),
     [
         ("01000A0D200000003F", [Write(0, 10), Write(0x20, 0.5)]),

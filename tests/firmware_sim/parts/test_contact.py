@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import pytest
-
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.contact import ContactFault, ContactSpec, SimContact
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.rotors.relay_pulse import RelayPulseAxisSpec, SimRelayPulseRotor
+from tests.tables import every_row
 
 QUIET = ContactSpec(spacing_deg=5.0, closed_deg=1.0, closes_at_deg=0.0, bounce_s=0.0)
 MOTOR = MotorSpec(speed_dps=6.0, lag_s=0.0, relay_delay_s=0.0, backlash_deg=0.0, stop_low_deg=-50.0, stop_high_deg=50.0)
@@ -73,7 +72,7 @@ def closures(contact: SimContact) -> int:
     return sum(closed for _, closed in contact.take(100.0))
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("fault", "count"),
     [
         (ContactFault.NONE, 72),

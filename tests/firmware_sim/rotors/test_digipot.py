@@ -6,6 +6,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
+from tests.tables import every_row
 
 
 class Bench:
@@ -21,7 +22,7 @@ class Bench:
         return self.rotor.antenna()[0]
 
 
-@pytest.mark.parametrize(("step", "starts"), [(128, 0), (129, 0), (127, 0), (130, 1), (126, 1)])
+@every_row(("step", "starts"), [(128, 0), (129, 0), (127, 0), (130, 1), (126, 1)])
 def test_the_dead_band_is_two_degrees(step: int, starts: int) -> None:
     bench = Bench()
     bench.write(step, 2.0)

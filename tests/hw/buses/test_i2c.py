@@ -11,6 +11,7 @@ import pytest
 from firmware_sim.buses.i2c import SimI2CBus
 from hw.buses.i2c import SmbusI2C, open_bus
 from hw.ports import HardwareError
+from tests.tables import every_row
 
 ADDRESS = 0x48
 
@@ -69,7 +70,7 @@ def test_a_chip_that_does_not_answer(bus: SmbusI2C, wire: SimI2CBus, way: str) -
     assert isinstance(fault.value.__cause__, OSError)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("number", "words"),
     [
         (errno.EREMOTEIO, "does not answer"),  # the Pi's own controller
@@ -78,7 +79,6 @@ def test_a_chip_that_does_not_answer(bus: SmbusI2C, wire: SimI2CBus, way: str) -
         (errno.EIO, "Input/output error; something holds SDA or SCL low, or the adapter has gone"),
         (errno.EAGAIN, "Resource temporarily unavailable"),
     ],
-    ids=lambda value: errno.errorcode.get(value) if isinstance(value, int) else None,
 )
 def test_each_error_number_is_a_sentence(number: int, words: str) -> None:
     with pytest.raises(HardwareError, match=rf"^I2C bus 1: .*{words}.*\(address 0x27\)$"):

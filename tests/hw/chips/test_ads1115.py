@@ -13,6 +13,7 @@ from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.ads1115 import Ads1115
 from hw.ports import HardwareError
+from tests.tables import every_row
 
 RATES_SPS = (8, 16, 32, 64, 128, 250, 475, 860)
 INPUTS_V = (0.2, 1.1, 2.2, 3.2)
@@ -59,8 +60,8 @@ def test_one_shot_against_ground_with_the_comparator_off(channel: int, settings:
 # --- time: 1 / data rate, the oscillator 10 % fast or slow
 
 
-@pytest.mark.parametrize("rate_sps", RATES_SPS)
-@pytest.mark.parametrize("oscillator_error", [-0.1, 0.0, 0.1], ids=["fast", "exact", "slow"])
+@every_row("rate_sps", RATES_SPS)
+@every_row("oscillator_error", [-0.1, 0.0, 0.1])
 def test_the_result_is_read_when_it_is_there_and_not_much_later(rate_sps: int, oscillator_error: float) -> None:
     bench = Bench(oscillator_error)
     adc = bench.driver(rate_sps=rate_sps)

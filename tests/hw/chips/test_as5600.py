@@ -6,7 +6,7 @@ import pytest
 
 from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.chips.as5600 import As5600 as SimAs5600
-from firmware_sim.chips.as5600 import MagnetFault
+from firmware_sim.chips.magnet import MagnetFault
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.as5600 import ADDRESS, As5600

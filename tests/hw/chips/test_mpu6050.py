@@ -10,9 +10,11 @@ from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.chips.mpu6050 import Mpu6050 as SimMpu6050
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
-from hw.chips.mpu6050 import AVERAGED_OVER_S, Mounting, Mpu6050
+from hw.chips.mpu6050 import Mpu6050
 from hw.ports import HardwareError
-from rotator.config.sensors import MPU6050_BEHIND_S
+from hw.sensors.mounting import Mounting
+from hw.sensors.tilt import AVERAGED_OVER_S, TiltSensor
+from rotator.config.sensors import TILTS
 
 CYCLE_S = 0.05
 
@@ -37,9 +39,10 @@ class Bench:
             math.cos(elevation) * math.cos(lean),
         )
 
-    def driver(self, address: int = 0x68, mounting: Mounting | None = None, averaged: int = 4) -> Mpu6050:
+    def driver(self, address: int = 0x68, mounting: Mounting | None = None, averaged: int = 4) -> TiltSensor:
         bus = SmbusI2C(self.wire, "bus 1")
-        return Mpu6050(bus, self.clock, self.clock.sleep, address=address, mounting=mounting, averaged=averaged)
+        chip = Mpu6050(bus, self.clock.sleep, address)
+        return TiltSensor(chip, self.clock, mounting=mounting, averaged=averaged)
 
     def register(self, at: int) -> int:
         self.chip.write(bytes([at]))
@@ -128,4 +131,4 @@ def test_a_chip_that_is_gone_and_comes_back_from_power_on(bench: Bench) -> None:
 
 def test_the_box_knows_how_old_a_reading_may_be() -> None:
     """RM-MPU-6000A, register 26: the accelerometers are 13.8 ms late at 10 Hz."""
-    assert MPU6050_BEHIND_S >= AVERAGED_OVER_S + 0.0138
+    assert TILTS["mpu6050"] >= AVERAGED_OVER_S + 0.0138

@@ -10,6 +10,7 @@ from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.pca9685 import Pca9685
 from hw.ports import HardwareError
+from tests.tables import every_row
 
 
 class Bench:
@@ -42,7 +43,7 @@ def test_start_ends_what_another_program_left_running() -> None:
     assert 1 / bench.chip.period_s() == pytest.approx(60, abs=0.3)
 
 
-@pytest.mark.parametrize(("width_us", "ticks"), [(500, 102), (1000, 205), (1500, 307), (2000, 410), (2500, 512)])
+@every_row(("width_us", "ticks"), [(500, 102), (1000, 205), (1500, 307), (2000, 410), (2500, 512)])
 def test_a_pulse_at_once_after_the_start(width_us: float, ticks: int) -> None:
     bench = Bench()
     bench.driver().pulse(15, width_us)

@@ -19,6 +19,7 @@ from hw.drives.digipot import DigipotDrive
 from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import Axis, HardwareError
 from hw.safety.guard import Guard
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 ENABLE_PIN = 22
@@ -210,7 +211,8 @@ class FailingEnable:
         self._lines.close()
 
 
-@pytest.mark.parametrize("outcomes", list(itertools.product(("works", "fails", "switches"), repeat=3)), ids="-".join)
+@pytest.mark.long
+@every_row("outcomes", list(itertools.product(("works", "fails", "switches"), repeat=3)))
 def test_with_any_failure_of_the_supply_s_line_a_lease_ends_the_move_and_the_next_aim_works(
     outcomes: tuple[str, ...],
 ) -> None:

@@ -33,6 +33,7 @@ def both(bench: Bench, azimuth_deg: float, elevation_deg: float, seconds: float)
         bench.clock.sleep(0.05)
 
 
+@pytest.mark.long
 @settings(max_examples=examples(30), deadline=None)
 @given(
     true_deg=st.tuples(st.floats(0, 360), st.floats(0, 90)),
@@ -87,6 +88,7 @@ def test_when_a_full_travel_is_over_a_stop_needs_no_relay() -> None:
     assert bench.rotor.gpio.level(22), "the boxes keep their supply"
 
 
+@pytest.mark.long
 @settings(max_examples=examples(12), deadline=None)
 @example(true_deg=2.0, assumed_deg=7.0, target_deg=6.0)  # it rests just within the least step back
 @given(true_deg=st.floats(0, 360), assumed_deg=st.floats(0, 360), target_deg=st.floats(5, 355))
@@ -103,6 +105,7 @@ RESTS_WITHIN_DEG = 0.7 + 0.25 + 0.1
 """Half a step, and half the play of the gear. The dead band is no part of it."""
 
 
+@pytest.mark.long
 @settings(max_examples=examples(12), deadline=None)
 @given(st.lists(st.tuples(st.floats(3, 357), st.sampled_from(["", "hold", "release"])), min_size=1, max_size=6))
 def test_it_rests_there_from_either_side_after_reversals_stops_and_let_go(orders: list[tuple[float, str]]) -> None:
@@ -152,6 +155,7 @@ def measured(bench: Bench, axis: Axis, angle_deg: float, seconds: float) -> None
         bench.clock.sleep(0.05)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("band_deg", [1.2, 2.0, 3.0])
 def test_the_dead_band_is_learnt_for_each_direction(band_deg: float) -> None:
     """The box's own band is another one than the file's 2°, and the motor coasts: after some moves it rests exactly."""

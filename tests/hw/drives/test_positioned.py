@@ -9,6 +9,7 @@ import pytest
 from hw.drives.leases import wait_until
 from hw.drives.positioned import DriveAngle
 from hw.ports import AngleSource, Axis, HardwareError
+from tests.tables import every_row
 
 
 class Noted(threading.Condition):
@@ -23,7 +24,7 @@ class Noted(threading.Condition):
         return True
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("due_s", "slept_s"),
     [
         (None, [1.0]),

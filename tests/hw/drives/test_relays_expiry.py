@@ -14,11 +14,12 @@ from hw.drives.motor_supply import MASTER_LINGER_S
 from hw.drives.relays import RelayBank
 from hw.ports import HardwareError
 from tests.hw.drives.relay_bench import AZ, DEAD_TIME_S, EL, MINUS, OFF, PINS, PLUS, Bench
+from tests.tables import every_row
 
 # --- every command ends by itself
 
 
-@pytest.mark.parametrize("asked_s", [0.02, 0.25, LONGEST_LEASE_S, 0.51, 3600.0, math.inf])
+@every_row("asked_s", [0.02, 0.25, LONGEST_LEASE_S, 0.51, 3600.0, math.inf])
 def test_without_renewal_the_relay_opens(asked_s: float) -> None:
     bench = Bench()
     bench.drive(EL, PLUS, asked_s)
@@ -155,8 +156,8 @@ class FailsAfter:
         """There is nothing to release."""
 
 
-@pytest.mark.parametrize("master", [False, True])
-@pytest.mark.parametrize("failures", [1, 2, 3])
+@every_row("master", [False, True])
+@every_row("failures", [1, 2, 3])
 def test_a_relay_that_closed_though_its_line_failed_is_opened_and_is_known_to_have_run(
     failures: int, master: bool
 ) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import pytest
 
 from firmware_sim.buses.gpio import SimGpio
@@ -30,6 +32,9 @@ class Journal:
 
     def rest(self) -> None:
         self.heard.append(("rest", self._any_on()))
+
+    def unbraked(self, lines: Collection[str]) -> None:
+        self.heard.append((f"unbraked {' '.join(lines)}".strip(), self._any_on()))
 
     def words(self) -> list[str]:
         return [word for word, _ in self.heard]

@@ -7,6 +7,8 @@ a cut. The sentinel hears of each lease and of its end, so that it never takes a
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
@@ -43,6 +45,9 @@ class Ears:
 
     def rest(self) -> None:
         self.leased_s = None
+
+    def unbraked(self, lines: Collection[str]) -> None:
+        """No brake is wired here: tests/hw/drives/test_brakes_property.py."""
 
 
 class AnySequence(RuleBasedStateMachine):

@@ -6,12 +6,13 @@ import pytest
 
 from hw.drives.scale import CommandScale
 from hw.ports import HardwareError
+from tests.tables import every_row
 
 SERVO = CommandScale("azimuth servo", ((0, 520), (90, 1470), (180, 2480)))
 UPSIDE_DOWN = CommandScale("elevation servo", ((90, 1000), (0, 2000)))
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("scale", "angle_deg", "value"),
     [(SERVO, 0, 520), (SERVO, 45, 995), (SERVO, 90, 1470), (SERVO, 180, 2480), (UPSIDE_DOWN, 22.5, 1750)],
 )
@@ -26,7 +27,7 @@ def test_outside_the_table(angle_deg: float) -> None:
         SERVO.value(angle_deg)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("points", "said"),
     [
         ((), "needs two points or more"),

@@ -21,6 +21,7 @@ from hw.drives.servo_axis import ServoSpec
 from hw.ports import AngleSource, Axis, HardwareError
 from hw.safety.guard import PATIENCE_S
 from tests.search import examples
+from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 OE_PIN = 5
@@ -263,9 +264,9 @@ def test_a_board_without_supply_is_an_error_and_comes_back_without_a_pulse(fault
 # --- the next run of the program
 
 
-@pytest.mark.parametrize("wired", [True, False], ids=["enable line", "no enable line"])
-@pytest.mark.parametrize("moves_s", [1.0, 9.0], ids=["in mid-move", "at rest"])
-@pytest.mark.parametrize("dipped", [False, True], ids=["the board had supply", "its supply was cut"])
+@every_row("wired", [True, False])
+@every_row("moves_s", [1.0, 9.0])
+@every_row("dipped", [False, True])
 def test_a_new_program_goes_on_where_the_board_holds_the_servos(*, wired: bool, moves_s: float, dipped: bool) -> None:
     """The board's registers outlive the program: no jump to the file's start angles, 60° and 10°."""
     bench = Bench(at_deg=(60.0, 10.0), wired=wired)

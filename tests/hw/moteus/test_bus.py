@@ -14,6 +14,8 @@ from typing import Any
 
 import pytest
 
+from tests.tables import every_row
+
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
 from firmware_sim.moteus.bus import Frame, padded
@@ -24,6 +26,8 @@ from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, SerialPort
 from hw.moteus.orders import MoteusSpec
 from hw.ports import Axis, HardwareError
+
+pytestmark = pytest.mark.quiet
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 DEADLINE_S = 8.0
@@ -185,7 +189,7 @@ class Refuses(CanChannel):
         raise OSError(int(self.interface), os.strerror(int(self.interface)))
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("number", "words"),
     [
         (errno.ENOENT, "there is no such port: plug the adapter in"),

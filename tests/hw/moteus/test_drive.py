@@ -6,6 +6,8 @@ from itertools import pairwise
 
 import pytest
 
+from tests.tables import every_row
+
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
 from firmware_sim.moteus.motor import Mode
@@ -14,7 +16,7 @@ from hw.ports import Axis
 from tests.hw.moteus.drive_bench import AZ, AZIMUTH, CYCLE_S, EL, ELEVATION, Bench
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("spec", "angle_deg", "position_rev"),
     [
         (AZIMUTH, 0.0, 0.0),

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import cycle
+
 import pytest
+
+from tests.tables import every_row
 
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
@@ -14,8 +18,8 @@ from hw.ports import Axis, HardwareError
 from tests.hw.moteus.drive_bench import AZ, EL, Bench
 
 
-@pytest.mark.parametrize("name", sorted(FAULT_CODES))
-@pytest.mark.parametrize("axis", list(Axis))
+@pytest.mark.long
+@every_row(("name", "axis"), zip(sorted(FAULT_CODES), cycle(Axis)))
 def test_each_fault_stops_its_axis_and_says_what_to_do(axis: Axis, name: str) -> None:
     bench = Bench()
     other = EL if axis is AZ else AZ

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import pytest
-
 from hw.moteus.faults import FAULTS, LIMITS, explain
+from tests.tables import every_row
 
 LCD_COLUMNS = 13
 """What the display leaves for a notice."""
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("code", "word"),
     [
         (32, "calibration"),
@@ -39,7 +38,7 @@ def test_each_fault_has_its_number(code: int, word: str) -> None:
     assert explain(code).remedy
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("code", "word", "short"),
     [
         (96, "velocity", "SPEED"),

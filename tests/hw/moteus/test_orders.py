@@ -8,6 +8,7 @@ import pytest
 
 from hw.moteus.orders import WATCHDOG_S, Home, Mode, MoteusSpec
 from rotator.config.kinds.moteus import MoteusAxisTable
+from tests.tables import every_row
 
 
 def test_the_registers_have_the_reference_s_numbers() -> None:
@@ -28,7 +29,7 @@ def test_what_is_left_out_is_as_in_a_configuration_that_leaves_it_out() -> None:
     assert (spec.min_deg, spec.max_deg) == (0.0, 360.0), "a full circle"
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("angle_deg", "beyond_deg", "turns_deg"),
     [
         (45.0, 0.0, [45.0, 405.0]),

@@ -11,6 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.tables import every_row
+
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
 from hw.moteus.placing import BEYOND_DEG
@@ -57,6 +59,7 @@ def test_at_270_it_knows_so_and_goes_to_280(encoder: dict[str, float]) -> None:
     assert bench.world.controller("azimuth").motor.position_rev == pytest.approx(280 / 360, abs=1e-3), "for its bounds"
 
 
+@pytest.mark.long
 @WITHOUT_A_PERSON
 @pytest.mark.parametrize("true_deg", [45.0, 405.0])
 def test_where_two_turns_fit_it_does_not_move_until_a_person_says_which(
@@ -74,13 +77,14 @@ def test_where_two_turns_fit_it_does_not_move_until_a_person_says_which(
     assert bench.antenna(AZ) == pytest.approx(200.0, abs=NEAR_DEG)
 
 
-@pytest.mark.parametrize("true_deg", [-0.1, 0.0, 0.1, 359.9, 360.0])
+@every_row("true_deg", [-0.1, 0.0, 0.1, 359.9, 360.0])
 def test_at_the_seam_of_a_full_circle_a_push_of_the_wind_is_not_taken_for_a_turn(true_deg: float) -> None:
     bench = Bench(start_deg=(true_deg, 0.0), range_deg=(0.0, 360.0), **DIRECT)  # type: ignore[arg-type]
     powered_up(bench)
     assert "0° or at 360°" in complaint(bench) or "-0° or at 360°" in complaint(bench)
 
 
+@pytest.mark.long
 @WITHOUT_A_PERSON
 def test_a_program_that_starts_anew_finds_the_turn_where_it_left_it(encoder: dict[str, float]) -> None:
     bench = Bench(start_deg=(100.0, 0.0), **encoder)  # type: ignore[arg-type]  # keywords of two types
@@ -98,6 +102,7 @@ def test_a_program_that_starts_anew_finds_the_turn_where_it_left_it(encoder: dic
     assert bench.antenna(AZ) == pytest.approx(45.0, abs=NEAR_DEG)
 
 
+@pytest.mark.long
 @WITHOUT_A_PERSON
 def test_a_supply_lost_while_it_turns_in_the_overlap_stops_it(encoder: dict[str, float]) -> None:
     bench = Bench(start_deg=(100.0, 0.0), **encoder)  # type: ignore[arg-type]  # keywords of two types
@@ -120,6 +125,7 @@ def worlds() -> st.SearchStrategy[tuple[dict[str, float], float, float, float]]:
     return st.tuples(encoders, lows_deg, spans_deg, st.floats(-0.009, 1.009))
 
 
+@pytest.mark.long
 @given(
     world=worlds(), shares=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=3), said_off_deg=st.floats(-20.0, 20.0)
 )

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import hw.safety.off_at_once
-from hw.safety.off_at_once import REQUEST, request, switch_off
+from hw.safety.off_at_once import READ_LINES, REQUEST, request, switch_off
 
 SCRIPT = Path(hw.safety.off_at_once.__file__)
 UNIT = Path(__file__).parents[3] / "install" / "rotator.service"
@@ -64,6 +64,15 @@ def test_the_kernel_reads_outputs_that_are_off(active_low: bool, flags: int) -> 
     # No attribute names a value: each output begins inactive, which is off at either level.
     assert asked.config.num_attrs == 0
     assert asked.consumer == b"rotator-off"
+
+
+@pytest.mark.parametrize(("active_low", "flags"), [(False, 0), (True, 0b10)])
+def test_brakes_are_looked_at_as_they_are_before_they_engage(active_low: bool, flags: int) -> None:
+    # No direction asks for the lines as they are: with one, the look itself would switch them.
+    asked = LineRequest.from_buffer_copy(request([16], active_low=active_low, output=0))
+    assert asked.config.flags == flags
+    # _IOWR(0xB4, 0x0E, struct gpio_v2_line_values), which has two u64: the levels, and which of them are asked for.
+    assert READ_LINES == (0b11 << 30) | (16 << 16) | (0xB4 << 8) | 0x0E
 
 
 def test_the_file_of_the_lines_is_found_in_the_kernels_answer() -> None:

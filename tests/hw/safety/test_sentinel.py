@@ -113,6 +113,7 @@ def test_a_sentinel_that_no_longer_reads_lets_no_relay_close(switched_off: Path)
     assert switched_off.exists(), "it goes on, and finds the end of the pipe"
 
 
+@pytest.mark.quiet
 def test_a_sentinel_that_is_stopped_is_noticed_within_seconds(switched_off: Path) -> None:
     """Also while no relay is on. The box then ends, as when its sentinel has died."""
     sentinel = Sentinel(LINES)

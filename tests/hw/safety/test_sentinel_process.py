@@ -21,6 +21,7 @@ from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
 from hw.safety.sentinel_process import SILENCE_S, watch
+from tests.tables import every_row
 
 CHIP = "/dev/gpiochip0"
 LINES = RelayLines(CHIP, {"azimuth_cw": 22, "azimuth_ccw": 23}, active_low=False)
@@ -36,6 +37,7 @@ class Program:
         self.commands, self.pipe = os.pipe()
         self.answers, self._answering = os.pipe()
         self.off_s: float | None = None
+        self.unbraked = 0
         self._thread = threading.Thread(
             target=watch, args=(self.commands, self._answering, self.pidfd, self._off), name="watch"
         )
@@ -64,7 +66,8 @@ class Program:
         for file in (self.commands, self.answers, self._answering, self.pidfd):
             os.close(file)
 
-    def _off(self) -> None:
+    def _off(self, unbraked: int) -> None:
+        self.unbraked = unbraked
         self.off_s = time.monotonic()
 
 
@@ -114,6 +117,14 @@ def test_it_acts_at_the_end_even_after_the_message_that_all_is_off(program: Prog
     assert program.off_s is not None
 
 
+@pytest.mark.parametrize(("said", "number"), [(b"A+", 1), (b"A+-@", 0), (b"+AC-1f", 3), (b"A1f-B+", 2)], ids=repr)
+def test_it_knows_which_brakes_are_off_when_the_program_dies(program: Program, said: bytes, number: int) -> None:
+    program.says(said)
+    program.ends()
+    assert program.watch_ended()
+    assert program.unbraked == number
+
+
 def test_silence_with_a_relay_on_ends_the_program_first(program: Program) -> None:
     begun_s = time.monotonic()
     program.says(b"+")
@@ -136,7 +147,7 @@ def test_a_pipe_that_cannot_be_read_is_no_reason_to_leave_them_closed() -> None:
     offs: list[bool] = []
     reading, writing = os.pipe()
     os.close(reading)
-    watch(reading, -1, -1, lambda: offs.append(True))
+    watch(reading, -1, -1, lambda _unbraked: offs.append(True))
     os.close(writing)
     assert offs == [True]
 
@@ -198,7 +209,7 @@ def test_lines_that_are_never_released_are_reported() -> None:
 # --- how it gets its lines
 
 
-@pytest.mark.parametrize(
+@every_row(
     "text", ["", "/dev/gpiochip0", "/dev/gpiochip0 low a=1", "x active-low a", "x active-low a=b", "x active-low a=1=2"]
 )
 def test_any_other_text_is_refused(text: str) -> None:

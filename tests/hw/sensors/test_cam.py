@@ -9,6 +9,7 @@ import pytest
 from hw.ports import Direction
 from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
+from tests.tables import every_row
 
 PLUS, MINUS, OFF = Direction.PLUS, Direction.MINUS, Direction.OFF
 CAM = Cam(spacing_deg=5.0, closed_deg=1.0, closes_at_deg=0.0, speed_dps=6.0, coast_s=0.5)
@@ -92,8 +93,8 @@ def with_a_false_pulse(edges: list[tuple[float, bool, int]], chance: random.Rand
     return count
 
 
-@pytest.mark.parametrize("speed_dps", [4.8, 6.0, 7.2])
-@pytest.mark.parametrize("missed", range(6, 30, 2))
+@every_row("speed_dps", [4.8, 6.0, 7.2])
+@every_row("missed", range(6, 30, 2))
 def test_one_pulse_missed_anywhere_is_noticed(missed: int, speed_dps: float) -> None:
     count = at(3.0, closed=False)
     count.drive(0.0, PLUS)
@@ -103,7 +104,7 @@ def test_one_pulse_missed_anywhere_is_noticed(missed: int, speed_dps: float) -> 
     assert "too late" in count.trouble
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("pauses_s", "turns"),
     [
         ((0.17, 0.67, 0.17), True),
@@ -138,7 +139,7 @@ def test_three_periods_without_a_pulse() -> None:
 # --- placing
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("angle_deg", "closed", "believed", "zone"),
     [
         (5.5, True, True, 2),

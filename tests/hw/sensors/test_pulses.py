@@ -19,6 +19,7 @@ from hw.sensors.cam import Cam
 from hw.sensors.pulses import PulseCounter
 from tests.hw.sensors.pulse_rig import AZ, CAM, PATH, STANDS_S, PulseRig
 from tests.search import examples
+from tests.tables import every_row
 
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
 MOVES = examples(2500)
@@ -73,7 +74,8 @@ def test_it_knows_whether_its_contact_is_closed_and_that_the_next_change_is_ahea
 # --- the same closure from both sides
 
 
-@pytest.mark.parametrize("start_deg", [99.0 + step * 0.13 for step in range(40)])
+@pytest.mark.long
+@every_row("start_deg", [99.0 + step * 0.13 for step in range(40)])
 def test_back_and_forth_over_a_closure_is_never_off_by_one(start_deg: float) -> None:
     rig = PulseRig(start_deg)
     chance = random.Random(int(start_deg * 100))
@@ -83,6 +85,7 @@ def test_back_and_forth_over_a_closure_is_never_off_by_one(start_deg: float) -> 
         assert (rig.off_by, rig.counter.trouble) == (0, "")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("spacing_deg", "closed_deg", "play_deg"), [(6.0, 3.0, 0.0), (10.0, 2.0, 0.0), (5.0, 1.0, 0.6), (5.0, 0.4, 0.2)]
 )

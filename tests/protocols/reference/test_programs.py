@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import get_args
 
-import pytest
-
 from rotator.config.links import ProtocolName
 from rotator.protocols.reference.programs import PROGRAMS, Program
 from tests.protocols.fed import Notebook, connected
+from tests.tables import every_row
 
 QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B", b"P45", b"W\0", b":G", b"#:G", b"\x06", b"GET /PstRotatorAz.htm ")
 """What moves nothing."""
@@ -20,7 +19,7 @@ def test_every_protocol_has_its_program() -> None:
     assert set(get_args(ProtocolName)) - named == {"easycomm1", "easycomm3", "rot1prog", "rotctld-follow"}
 
 
-@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.name)
+@every_row("program", PROGRAMS)
 def test_what_it_says_is_understood(program: Program) -> None:
     protocol = program.protocols[0]
     for said in program.says:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import pytest
-
 from docs.generate import PARTS
 from rotator.protocols import dcu1, easycomm, gs232, lx200, prosistel, pstrotator, rc2800, rotctld, spid
+from tests.tables import every_row
 
 TABLES = {name: make() for name, make in PARTS["reference/wire.md"].items()}
 
@@ -30,7 +29,7 @@ def test_every_command_has_its_row() -> None:
     assert shown == sorted((f"{row.command:02X}", model.value) for row in spid.ROWS for model in row.models)
 
 
-@pytest.mark.parametrize(
+@every_row(
     ("name", "row"),
     [
         ("gs232", r"`C2` | Read azimuth and elevation | A: `+0235+0025\r\n`, B: `AZ=235  EL=025\r\n`"),

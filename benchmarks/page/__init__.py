@@ -1,1 +1,0 @@
-"""Fifty browsers at once: `python -m benchmarks.page`."""

@@ -1,0 +1,86 @@
+"""Runs that do not turn their axis, from one short run to the next: how many, and whether that is enough to say so.
+
+Knows how far the axis is behind a motor so slow that it stands (`estimator`), and what the relays do. Judges nothing:
+`motion_watch` makes a fault of it, and of an axis without a calibration the person who presses makes what they see.
+"""
+
+from __future__ import annotations
+
+from rotator.control.axis.estimator import START_S, Behind, Estimator
+from rotator.control.axis.relay_state import RelayState
+from rotator.exchange.faults import FaultKind, Notice
+
+STANDS_S, SHORT_S, LONGEST_S, SURE_SHARE = 1.2, 0.5, 4.0, 0.85
+"""An axis stands after it was driven for the first time in all, and is behind by this share of what is sure: by what
+its pursuer runs in the second time at least. Where noise asks for more than he runs in the third, that is enough; in
+the first, until the axis has shown that it turns."""
+SETTLES_S = 0.6
+"""After a run the relay has opened, the axis has come to rest and its place has followed within this time."""
+ENOUGH_PRESSES, ENOUGH_S, LONG_S = 3, 1.0, 4.5
+"""An axis without a calibration is pressed in vain after so many presses, of the first time in all; or after the second
+time: presses that follow each other without a pause look like one."""
+STANDING_FAULTS = frozenset({FaultKind.STANDS_STILL, FaultKind.END_STOP, FaultKind.BRAKE_HELD})
+"""The faults of a motor that does not turn."""
+IN_VAIN = Notice(
+    "presses did not move it: a program turns it again after a person has turned it, or after `resume`", "NOT TURNING"
+)
+
+
+class VainRuns:
+    """Tell it of every change of the relays (`note_relays`) and of each look (`see`), after the estimator."""
+
+    def __init__(self, seen: Estimator) -> None:
+        self._seen = seen
+        self.tries = 0
+        """Runs without motion since the last fault, or since the axis was last seen to turn."""
+        self._pressed = False
+        """In an earlier run of the program presses did not turn the axis."""
+
+    @property
+    def in_vain(self) -> bool:
+        """Whether the present run, or one before it, has not been seen to turn the axis."""
+        seen = self._seen
+        return self.tries > 0 or (not seen.turned and seen.relays.closed) or self.settles(seen.trend.last_s)
+
+    def settles(self, now_s: float) -> bool:
+        """Whether the last run is just over and was not seen to turn the axis: the readings may show it yet."""
+        seen = self._seen
+        return not seen.turned and not seen.relays.closed and seen.relays.off_for_s(now_s) < SETTLES_S
+
+    @property
+    def stands(self) -> bool:
+        """Whether the axis was driven for long enough, in one run or in several, to be sure that it stands."""
+        seen = self._seen
+        most_s = LONGEST_S if seen.shown else STANDS_S
+        least_s = max(min(SURE_SHARE * seen.sure_deg / seen.stands_dps, most_s), SHORT_S)
+        return seen.short.for_s >= STANDS_S and seen.short.deg >= least_s * seen.stands_dps
+
+    @property
+    def pressed(self) -> bool:
+        """Whether an axis without a calibration has been pressed in vain often enough, or for long enough."""
+        for_s = self._seen.short.for_s
+        return self._pressed or for_s >= LONG_S or (self.tries >= ENOUGH_PRESSES and for_s >= ENOUGH_S)
+
+    def note_pace(self, pace: float) -> None:
+        """The motor turns at this share of its full speed from now on."""
+        self._seen.note_pace(pace)
+
+    def note_relays(self, relays: RelayState, was: RelayState) -> None:
+        """The relays have changed; `was`: before."""
+        if was.closed and not self._seen.turned and relays.since_s - was.begun_s >= START_S:
+            self.tries += 1
+
+    def see(self) -> None:
+        if self._seen.turned and self._seen.relays.last:
+            self.tries, self._pressed = 0, False
+
+    def struck(self, kind: FaultKind) -> None:
+        """A fault has stopped the axis. If it stood still, one more run without motion is enough for the next fault."""
+        seen = self._seen
+        self.tries, seen.back_deg, seen.turned = 0, 0.0, True
+        stood = kind in STANDING_FAULTS
+        seen.short = Behind(seen.sure_deg, STANDS_S - SHORT_S, seen.sure_deg) if stood else Behind()
+
+    def forget(self, *, pressed: bool = False) -> None:
+        """A person has looked. `pressed`: what an earlier run of the program knew of presses."""
+        self.tries, self._pressed, self._seen.short = 0, pressed, Behind()

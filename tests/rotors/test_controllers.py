@@ -1,0 +1,167 @@
+"""A box in front of each controller that it speaks to, in simulated time: goes there, stops, and says what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from firmware_sim.rotors.controller import SimControllerRotor
+from hw.ports import Axis, Direction
+from rotator.config.kinds.controller import LANGUAGES
+from rotator.exchange.orders import Aim, Jog, Stop
+from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
+
+CONTROLLER = next(kind for kind in KINDS if kind.profile == "controller")
+TOLD_S = 2.0
+
+
+def behind(protocol: str, **keys: Any) -> Box:
+    """One for both axes, or one for each where it turns one."""
+    table = {"protocol": protocol, **keys}
+    if LANGUAGES[protocol].azimuth_only:  # type: ignore[index]
+        table["elevation"] = {"protocol": protocol}
+    box = Box(CONTROLLER, controller=table)
+    box.run(2.0)
+    return box
+
+
+@pytest.fixture(params=LANGUAGES)
+def box(request: pytest.FixtureRequest) -> Iterator[Box]:
+    box = behind(request.param)
+    yield box
+    box.close()
+
+
+@pytest.fixture
+def gs232() -> Iterator[Box]:
+    box = behind("gs232b")
+    yield box
+    box.close()
+
+
+def world(box: Box) -> SimControllerRotor:
+    assert isinstance(box.world, SimControllerRotor)
+    return box.world
+
+
+def test_it_goes_there_stops_at_once_and_follows_a_jog(box: Box) -> None:
+    assert box.status.faults == ()
+    assert box.arrives(200.0, 60.0)
+    box.order(Aim(20.0, 10.0))
+    box.run(3.0)
+    box.order(Stop())
+    box.run(0.1)
+    stopped_deg = box.world.shafts()
+    box.until_it_stands()
+    for was_deg, is_deg in zip(stopped_deg, box.world.shafts(), strict=True):
+        assert abs(is_deg - was_deg) <= CONTROLLER.run_on_deg
+    box.order(Jog(AZ, Direction.PLUS, held=True), by=PERSON)
+    began_deg = box.shaft_deg(AZ)
+    box.run(6.0)
+    assert box.shaft_deg(AZ) - began_deg > 25.0, "without a pause between its targets"
+    box.order(Stop())
+    box.until_it_stands()
+    assert box.status.faults == ()
+
+
+def test_one_controller_for_each_axis_and_each_in_its_own_protocol() -> None:
+    keys = {"azimuth": {"protocol": "rotctld"}, "elevation": {"protocol": "easycomm2"}}
+    box = Box(CONTROLLER, controller=keys)
+    box.run(1.0)
+    assert box.arrives(200.0, 60.0)
+    assert [len(line.moves_s) for line in world(box).lines] == [1, 1]
+    box.close()
+
+
+@pytest.mark.parametrize("low_deg", [0.0, -180.0])
+def test_a_controller_that_tells_one_turn(low_deg: float) -> None:
+    limits = {"min_deg": low_deg, "max_deg": low_deg + 360.0}
+    keys = {"protocol": "rotctld", "counts_from_deg": 0.0}
+    box = Box(CONTROLLER, azimuth=limits, controller=keys, mount={"park_azimuth_deg": 0.0})
+    box.run(1.0)
+    for azimuth_deg in (350.0, 190.0, 10.0):
+        box.order(Aim(azimuth_deg, 30.0))
+        box.until_it_stands()
+        assert box.boom_deg(AZ) % 360.0 == pytest.approx(azimuth_deg, abs=1.1)
+        assert low_deg - 1.0 <= box.shaft_deg(AZ) <= low_deg + 361.0
+    assert box.status.faults == ()
+    box.close()
+
+
+def test_slow_answers_are_followed(gs232: Box) -> None:
+    gs232.world.inject("controller-slow")
+    assert gs232.arrives(200.0, 60.0)
+    assert gs232.status.faults == ()
+
+
+def told_in_s(box: Box, axis: Axis, words: str) -> float:
+    def said() -> bool:
+        status = box.axis(axis)
+        fault = [status.fault.name] if status.fault else []
+        return any(text.startswith(words) for text in [*fault, *(notice.text for notice in status.notices)])
+
+    return box.until(said, 5.0)
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("controller-deaf", "controller silent"),
+        ("controller-unplugged", "controller silent"),
+        ("controller-garbled", "controller not understood"),
+        ("azimuth-jumps", "its readings jumped"),
+        ("azimuth-knob-turned", "it is turned at its controller's own controls"),
+    ],
+)
+def test_what_goes_wrong_at_rest_is_told_by_its_name_and_stops_nothing_for_good(
+    gs232: Box, fault: str, words: str
+) -> None:
+    gs232.world.inject(fault)
+    assert told_in_s(gs232, AZ, words) <= TOLD_S
+    gs232.run(3.0)
+    gs232.world.clear(fault)
+    gs232.run(3.0)
+    assert gs232.status.faults == ()
+    assert world(gs232).lines[0].stops == 0, "followed, not fought"
+    assert gs232.arrives(150.0, 45.0)
+
+
+def test_going_on_after_a_stop_is_told_by_its_name(gs232: Box) -> None:
+    gs232.order(Aim(250.0, 90.0))
+    gs232.run(3.0)
+    gs232.world.inject("controller-ignores-stop")
+    gs232.order(Stop())
+    for axis in (AZ, EL):
+        began_s = gs232.clock()
+        told_in_s(gs232, axis, "controller does not stop")
+        assert gs232.clock() - began_s <= TOLD_S
+    gs232.world.clear("controller-ignores-stop")
+    gs232.run(2.0)
+    gs232.order(Stop())
+    assert gs232.arrives(150.0, 45.0), "its stop was said again until it was heard"
+
+
+def test_a_stop_goes_to_the_controller_also_when_a_hand_turns_it(gs232: Box) -> None:
+    gs232.world.inject("azimuth-knob-turned")
+    gs232.run(2.0)
+    gs232.order(Stop())
+    gs232.run(0.1)
+    assert world(gs232).lines[0].stops == 1
+
+
+def test_a_target_at_each_moment_goes_out_once_a_second(gs232: Box) -> None:
+    for step in range(200):
+        gs232.order(Aim(100.0 + step / 2, 40.0))
+        gs232.run(0.05)
+    moves_s = list(world(gs232).lines[0].moves_s)
+    assert min(later - before for before, later in pairwise(moves_s)) >= 0.95
+
+
+def test_a_hung_control_thread_ends_in_the_controllers_own_stop(gs232: Box) -> None:
+    gs232.order(Aim(250.0, 90.0))
+    gs232.run(3.0)
+    gs232.left_alone(0.6)
+    assert world(gs232).lines[0].stops == 1
