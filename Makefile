@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test style check tests docs reference drills planted scores sectors test-search test-quiet test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
+.PHONY: run test style check tests docs reference drills planted scores sectors test-search test-quiet test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings languages languages-check dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -143,6 +143,13 @@ docs: $(VENV)/.docs
 reference: $(VENV)/.dev
 	$(BIN)/python -m docs.generate
 	$(BIN)/python -m docs.commands
+
+# The catalogues of rotator/languages with today's texts; languages-check names what has no translation.
+languages: $(VENV)/.dev
+	$(BIN)/python -m docs.languages
+
+languages-check: $(VENV)/.dev
+	$(BIN)/python -m docs.languages --check
 
 # The wiring pictures, from their source in docs/drawings, and the rooms of the source, from its imports.
 drawings: $(VENV)/.dev

@@ -36,6 +36,7 @@ CAPTIONS = {
     "rotator.protocols": "bytes ⇄ orders",
     "rotator.store": "files kept",
     "rotator.exchange": "orders, status",
+    "rotator.languages": "catalogues",
     "hw.ports": "the interfaces",
     "hw.interpolation": "points and lines",
     "hw.urgent": "threads that go first",

@@ -60,7 +60,7 @@ class App:
 
     def lcd_rows(self, now_s: float) -> tuple[str, str]:
         """The rows of the display."""
-        return lcd_rows(self.loop, self._built.pairings, now_s)
+        return lcd_rows(self.loop, self._built.pairings, self._built.language, now_s)
 
     async def run(self, stop: asyncio.Event) -> None:
         """Run until `stop` is set. Raises LinkError, HardwareError, or the exception that ended the control thread."""

@@ -33,6 +33,7 @@ from rotator.config.places import console_path, monitor_path
 from rotator.control.sky.mount import Mount
 from rotator.exchange.orders import Order
 from rotator.exchange.sources import KEYBOARD, Source
+from rotator.languages import DISPLAY, Wanted, catalogue
 from rotator.links.console import ConsoleSocket
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
@@ -87,14 +88,18 @@ class Parts:
     mqtt: MqttThread | None
     panel: PanelThread | None
     display: DisplayThread | None
+    language: Wanted
+    """Of the display; "auto" is English."""
     calibration: PageCalibration | None
     """The calibration of an axis that this run is for."""
 
 
-def lcd_rows(loop: ControlLoop, pairings: Pairings | None, now_s: float, *, code_shown: bool = True) -> tuple[str, str]:
+def lcd_rows(
+    loop: ControlLoop, pairings: Pairings | None, language: Wanted, now_s: float, *, code_shown: bool = True
+) -> tuple[str, str]:
     """The rows of the display. Not `code_shown`: with a covered code, for those who are not at the box."""
     code = pairings.shown() if pairings else ""
-    return lcd.rows(loop.status, now_s, code if code_shown else "*" * len(code))
+    return lcd.rows(loop.status, now_s, code if code_shown else "*" * len(code), catalogue(language, DISPLAY))
 
 
 def build_parts(config: Config, path: Path | None, station: Station, anew: Anew) -> Parts:
@@ -143,7 +148,7 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
             loop,
             mount,
             pairings,
-            lcd=lambda: lcd_rows(loop, pairings, time.monotonic(), code_shown=False),
+            lcd=lambda: lcd_rows(loop, pairings, config.page.language, time.monotonic(), code_shown=False),
             wires=[link.wire for link in links],
             tap=tap,
             tracking=tracking,
@@ -160,7 +165,7 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
     panel = fitted_panel(config, station, loop, _stops(post) if calibration else post, before.state)
     if panel:
         tap.on_data = panel.data_received
-    display = station.display
+    display, rows = station.display, partial(lcd_rows, loop, pairings, config.page.language)
     return Parts(
         station=station,
         service_manager=service_manager,
@@ -182,7 +187,8 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         page=page,
         mqtt=mqtt,
         panel=panel,
-        display=DisplayThread(display, partial(lcd_rows, loop, pairings), time.monotonic) if display else None,
+        display=DisplayThread(display, rows, time.monotonic) if display else None,
+        language=config.page.language,
         calibration=calibration,
     )
 

@@ -12,6 +12,7 @@ from pydantic import AfterValidator, Field
 
 from rotator.config.links import Address, Networks
 from rotator.config.table import Table
+from rotator.languages import Wanted
 
 
 def _names(names: list[str]) -> list[str]:
@@ -32,3 +33,5 @@ class PageTable(Table):
     """Who may look without moving anything: every computer that may open it, or paired ones alone."""
     names: Annotated[list[str], AfterValidator(_names)] = Field(default_factory=list, max_length=16)
     """More names of this computer in browsers' addresses, beside its own, `NAME.local` and its numbers."""
+    language: Wanted = "auto"
+    """Of the page and the display: "auto" is what each browser asks for, and English on the display."""

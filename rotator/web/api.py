@@ -17,6 +17,7 @@ from aiohttp import web
 from rotator.exchange.orders import Jog, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
+from rotator.languages import Wanted, module, reader_language
 from rotator.protocols.methods import METHODS, Method, WrongValuesError
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
@@ -61,6 +62,7 @@ class PageParts:
     """Tasks that run as long as the page."""
     closes: Sequence[Callable[[], Coroutine[Any, Any, None]]] = ()
     """Called at the end of the page."""
+    language: Wanted = "auto"
 
 
 class Api:
@@ -165,14 +167,14 @@ class Api:
         return await self._asset(request)
 
     async def _asset(self, request: web.Request) -> web.StreamResponse:
-        asset = self._assets.get(request.path)
+        asset = self._assets.get(request.path) if request.path != "/language.js" else await self._words(request)
         if asset is None:
             raise web.HTTPNotFound(reason=f"there is no {request.path[:60]!a}")
         headers = {
             "ETag": asset.tag,
             "Cache-Control": "no-cache",
             "Content-Type": asset.kind,
-            "Vary": "Accept-Encoding",
+            "Vary": "Accept-Encoding, Accept-Language",
         }
         if asset.tag in request.headers.get("If-None-Match", ""):
             answer = web.Response(status=304, headers=headers)
@@ -183,6 +185,14 @@ class Api:
         if request.path == "/":
             self._entrance.renew_cookie(request, answer)
         return answer
+
+    async def _words(self, request: web.Request) -> assets.Asset:
+        """The catalogue of the reader's language. The first of each is packed in a thread: a small Pi needs a while."""
+        language = reader_language(self._parts.language, request.headers.get("Accept-Language", ""))
+        if (asset := self._assets.get(f"/language.js {language}")) is None:
+            asset = await asyncio.to_thread(lambda: assets.packed(assets.SCRIPT, module(language)))
+            self._assets[f"/language.js {language}"] = asset
+        return asset
 
     # --- orders
 

@@ -13,11 +13,12 @@ from pathlib import Path
 
 FOLDER = Path(__file__).with_name("static")
 HTML = "text/html; charset=utf-8"
+SCRIPT = "text/javascript; charset=utf-8"
 _TYPES = {
     ".html": HTML,
     ".css": "text/css; charset=utf-8",
-    ".js": "text/javascript; charset=utf-8",
-    ".mjs": "text/javascript; charset=utf-8",
+    ".js": SCRIPT,
+    ".mjs": SCRIPT,
     ".svg": "image/svg+xml",
     ".webmanifest": "application/manifest+json",
 }

@@ -147,6 +147,7 @@ def build_page(
                 *help_groups(config, file, place, pairings=pairings, lines=lines, wires=wire_log),
             ),
             works=(flown.run,),
+            language=config.page.language,
             closes=(passes.close, elements.close),
         )
 

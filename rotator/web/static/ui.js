@@ -2,10 +2,15 @@
 import { useEffect } from "/vendor/hooks.mjs";
 import { h, render } from "/vendor/preact.mjs";
 import htm from "/vendor/htm.mjs";
+import { inWords, said } from "/words.js";
 
 export { useEffect, useMemo, useRef, useState } from "/vendor/hooks.mjs";
-export { render };
-export const html = htm.bind(h);
+export { render, said };
+
+const parsed = htm.bind(h);
+
+/** Elements from a template, in the reader's language. */
+export const html = (texts, ...values) => parsed(...inWords(texts, values));
 
 export const degrees = (angle, digits = 1) => (angle == null ? "---" : `${angle.toFixed(digits)}°`);
 

@@ -1,0 +1,1 @@
+"""Keeps the catalogues of `rotator/languages` in step with the texts of the program: `make languages`."""

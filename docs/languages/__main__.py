@@ -1,0 +1,143 @@
+"""`make languages`: brings each catalogue up to date with the texts of the page, its sentences and the display.
+
+`--check` changes nothing, names what has no translation or cannot be shown, and ends with 1 if there is any.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections import Counter
+
+from babel.messages.catalog import Catalog, Message
+from babel.messages.pofile import read_po, write_po
+
+from docs.languages import page_texts, sentences
+from rotator.languages import DISPLAY, LANGUAGES
+
+FOLDER = sentences.ROOT / "rotator/languages"
+STATIC = sentences.ROOT / "rotator/web/static"
+SINGLE = (
+    *(
+        "azimuth",
+        "elevation",
+        "and",
+        "AZIMUTH",
+        "ELEVATION",
+        "TURNING",
+        "AT REST",
+        "ON TARGET",
+        "{0} ON TARGET, {1} AT REST",
+    ),
+    *(
+        "FAULT {0}",
+        "UNCALIBRATED {0}",
+        "closed",
+        "waiting",
+        "ready",
+        "listening",
+        "open",
+        "connecting",
+        "connected",
+        "pot",
+    ),
+    *(
+        "CUT MOTOR POWER!",
+        "CUT THE MOTOR POWER",
+        "SWITCH IT OFF!",
+        "{0}: {1}, limit {2}",
+        "on",
+        "off",
+        "doubted",
+        "today",
+    ),
+    *("clockwise", "counter-clockwise", "up", "down", "UP", "DOWN"),
+)
+"""Words that are no sentence, so that nothing finds them by itself."""
+COLUMNS = re.compile(r"[ -\[\]-}]*")
+"""What both character sets of an HD44780 have: ASCII without the backslash and the tilde."""
+
+
+def texts() -> dict[tuple[str, str], str]:
+    """Each message with its context (`display`, or none), and where it stands."""
+    found: dict[tuple[str, str], str] = {}
+    display = sentences.display_texts()
+    for path in sorted(STATIC.glob("*.js")):
+        if path.name != "stop.js":
+            found |= {(text, ""): path.name for text in page_texts.messages(path.read_text(encoding="utf-8"))}
+    for room in sentences.ROOMS:
+        for path in sentences.files(room):
+            found |= {(text, ""): path.name for text in sentences.messages(path) if text not in display}
+    found |= {(text, ""): "faults.py" for text in sentences.fault_texts()}
+    found |= {(text, ""): "words.py" for text in SINGLE}
+    return found | {(text, DISPLAY): f"display, {width} columns" for text, width in display.items()}
+
+
+def read(language: str) -> Catalog:
+    path = FOLDER / f"{language}.po"
+    if not path.exists():
+        return Catalog(language, project="gs232-rotator", charset="utf-8")
+    with path.open("rb") as file:
+        return read_po(file, language, charset="utf-8")
+
+
+def written(language: str) -> None:
+    """The catalogue with today's messages: what is translated stays, what is no message any more goes."""
+    before = read(language)
+    now = Catalog(language, header_comment=f"# The {language} words of gs232-rotator: see CONTRIBUTING.md, Languages.")
+    now.mime_headers[:] = []
+    for (text, context), where in sorted(texts().items(), key=lambda each: (each[0][1], each[1], each[0][0])):
+        old = before.get(text, context or None)
+        now.add(
+            text,
+            old.string if old else "",
+            auto_comments=[where],
+            flags=old.flags if old else (),
+            context=context or None,
+        )
+    with (FOLDER / f"{language}.po").open("wb") as file:
+        write_po(file, now, width=0, omit_header=True)
+
+
+def mistakes(language: str) -> list[str]:
+    """What is wrong with a catalogue, in sentences."""
+    catalogue, display = read(language), sentences.display_texts()
+    found = []
+    for text, context in texts():
+        message = catalogue.get(text, context or None)
+        found += [
+            f"{language}: {problem}: {text!r}"
+            for problem in _wrong(text, message, display.get(text, 0) if context else 0)
+        ]
+    return found
+
+
+def _wrong(text: str, message: Message | None, columns: int) -> list[str]:
+    if message is None or not message.string or message.fuzzy:
+        return ["no translation"]
+    told, found = str(message.string), []
+    if Counter(re.findall(r"\{\d+\}", text)) != Counter(re.findall(r"\{\d+\}", told)):
+        found.append("other placeholders")
+    if "<" in told or ('"' in told and '"' not in text):
+        found.append("a sign that would end a tag")
+    if columns and len(told) > columns:
+        found.append(f"{told!r} has more than {columns} columns")
+    if columns and not COLUMNS.fullmatch(told):
+        found.append(f"{told!r} has signs that the display lacks")
+    return found
+
+
+def main(words: list[str]) -> int:
+    others = [language for language in LANGUAGES if language != "en"]
+    if "--check" in words:
+        wrong = [line for language in others for line in mistakes(language)]
+        print("\n".join(wrong) or "Every text is translated.")
+        return 1 if wrong else 0
+    for language in others:
+        written(language)
+        print(f"{language}: {sum('no translation' in line for line in mistakes(language))} texts without translation")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

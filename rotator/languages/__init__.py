@@ -1,0 +1,64 @@
+"""The catalogues of the page's and the display's words, one for each language, and which one a reader gets.
+
+A catalogue is a `.po` file as gettext, Babel and every translator's program know it; it is read as it is, so a box
+needs none of these. The texts themselves are English, and what has no translation stays so. `make languages` brings the
+catalogues up to date. Knows no text and no screen.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Literal, get_args
+
+Language = Literal["en", "de", "fr", "es", "it", "pt", "cs"]
+Wanted = Literal["auto", "en", "de", "fr", "es", "it", "pt", "cs"]
+"""`auto`: what each reader's browser asks for."""
+LANGUAGES: tuple[Language, ...] = get_args(Language)
+DISPLAY = "display"
+"""The context of the texts for a display of sixteen columns."""
+_PART = re.compile(r'^(msgctxt|msgid|msgstr) ((?:"(?:[^"\\]|\\.)*"\s*)+)', re.MULTILINE)
+_QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"')
+
+
+@cache
+def catalogue(language: str, context: str = "") -> Mapping[str, str]:
+    """The translations by their English text; none for English. An unsure one (`fuzzy`) does not count."""
+    if language not in LANGUAGES or language == "en":
+        return {}
+    text = Path(__file__).with_name(f"{language}.po").read_text(encoding="utf-8")
+    found = {}
+    for block in text.split("\n\n"):
+        parts = {name: "".join(map(_text, _QUOTED.findall(quoted))) for name, quoted in _PART.findall(block)}
+        unsure = block.startswith("#, fuzzy") or "\n#, fuzzy" in block
+        if parts.get("msgstr") and parts.get("msgctxt", "") == context and not unsure:
+            found[parts["msgid"]] = parts["msgstr"]
+    return found
+
+
+def _text(quoted: str) -> str:
+    return str(json.loads(f'"{quoted}"'))
+
+
+def reader_language(wanted: Wanted, accepted: str) -> Language:
+    """The language for a reader whose browser sends `accepted` as its Accept-Language."""
+    if wanted != "auto":
+        return wanted
+    ranked = []
+    for at, part in enumerate(accepted[:200].split(",")):
+        name, _, quality = part.strip().partition(";q=")
+        try:
+            ranked.append((-float(quality or 1), at, name.partition("-")[0].lower()))
+        except ValueError:
+            continue
+    names = (name for _, _, name in sorted(ranked))
+    return next((each for name in names for each in LANGUAGES if each == name), "en")
+
+
+def module(language: Language) -> bytes:
+    """The catalogue as the page imports it."""
+    messages = json.dumps(catalogue(language), ensure_ascii=False, separators=(",", ":"))
+    return f'export const language = "{language}", messages = {messages};\n'.encode()

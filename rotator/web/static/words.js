@@ -1,0 +1,91 @@
+// The page in the reader's language. Templates are translated before they are parsed, once each: every text between two
+// tags is a message, with its values as {0}, {1}, and so are the attributes that a person hears or reads. Sentences that
+// the box sends are English: they are found by the message that they were made of. What has no translation stays English.
+import { language, messages } from "/language.js";
+
+const FIRST = 0xe000, VALUE = /[\ue000-\uf8ff]/, VALUES = /[\ue000-\uf8ff]/g, WORD = /\p{L}{2}/u, AT_LINES = /^\s*\n\s*|\s*\n\s*$/g;
+const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE = /([\w-]+)=(?:"([^"]*)"|'([^']*)')/g, GIVEN = /([\w-]+)=([\ue000-\uf8ff])/g;
+const READ = ["aria-label", "title", "placeholder", "label", "alt"], VERBATIM = ["code", "pre", "svg", "style"], MOST_KEPT = 3000;
+const known = new Map(Object.entries(messages)), kept = new Map(), cuts = new WeakMap();
+
+/** Texts that were shown, and have no translation: for the tests. */
+export const missed = new Set();
+document.documentElement.lang = language;
+
+/** A template in other words. `look` gives the translation of a message. Returns its texts, the values between them by
+    their number, and which values are shown to a person. */
+export function cut(texts, look) {
+  const joined = texts.map((text, at) => (at ? String.fromCharCode(FIRST + at - 1) : "") + text).join(""), shown = [];
+  const number = (value) => value.charCodeAt(0) - FIRST;
+  const inWords = (run) => {
+    const values = run.match(VALUES) ?? [], pieces = run.split(VALUE).map((piece) => piece.replace(AT_LINES, ""));
+    if (!pieces.some((piece) => WORD.test(piece))) return run;
+    const whole = pieces.map((piece, at) => (at < values.length ? `${piece}{${at}}` : piece)).join("").replace(/\s+/g, " ");
+    const told = look(whole.trim());
+    return told ? /^ ?/.exec(whole)[0] + told.replace(/\{(\d+)\}/g, (_, at) => values[at]) + / ?$/.exec(whole)[0] : run;
+  };
+  let inside = "";
+  const whole = joined.replace(TOKEN, (token) => {
+    if (!token.startsWith("<")) {
+      if (VERBATIM.includes(inside)) return token;
+      for (const value of token.match(VALUES) ?? []) shown[number(value)] = true;
+      return inWords(token);
+    }
+    if (token.startsWith("<!--")) return token;
+    inside = token.startsWith("</") ? "" : /^<([\w-]*)/.exec(token)[1];
+    for (const [, name, value] of token.matchAll(GIVEN)) if (READ.includes(name)) shown[number(value)] = true;
+    return token.replace(ATTRIBUTE, (all, name, one, other) => (READ.includes(name) ? `${name}="${inWords(one ?? other).replaceAll('"', "”")}"` : all));
+  });
+  return { texts: whole.split(VALUE), order: (whole.match(VALUES) ?? []).map(number), shown };
+}
+
+const look = (message) => known.get(message) || (missed.add(message), "");
+
+/** The same template and its values, in the reader's language. */
+export function inWords(texts, values) {
+  if (!known.size) return [texts, ...values];
+  let made = cuts.get(texts);
+  if (!made) cuts.set(texts, (made = cut(texts, look)));
+  return [made.texts, ...made.order.map((at) => (made.shown[at] && typeof values[at] === "string" ? said(values[at]) : values[at]))];
+}
+
+/** A sentence with its numbers and names, in the reader's language. */
+export function said(text) {
+  if (!known.size || !WORD.test(text)) return text;
+  if (!kept.has(text)) {
+    if (kept.size > MOST_KEPT) kept.clear();
+    const plain = text.trim(), told = found(plain);
+    if (told === null) missed.add(plain);
+    kept.set(text, told === null ? text : text.replace(plain, () => told));
+  }
+  return kept.get(text);
+}
+
+/** Null: it is in no catalogue. A sentence is looked for as it stands, by its pattern, then piece by piece. */
+function found(text) {
+  if (known.get(text)) return known.get(text);
+  const small = text[0].toLowerCase() + text.slice(1), told = small !== text && known.get(small);
+  if (told) return told[0].toUpperCase() + told.slice(1);
+  for (const { pattern, translation, open } of patterns(text)) {
+    const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value) : value]);
+    if (values && !(open && values.some(([, inWords]) => inWords === null))) return translation.replace(/\{(\d+)\}/g, (_, at) => values[at][1] ?? values[at][0]);
+  }
+  const pieces = text.split(/((?<=[.:;,!?]) +|\.$| and )/), others = pieces.map((piece) => (piece === " and " ? known.get("and") && ` ${known.get("and")} ` : piece !== text && WORD.test(piece) ? found(piece) : null));
+  return others.some((each) => each !== null) ? pieces.map((piece, at) => others[at] ?? piece).join("") : null;
+}
+
+let index;
+
+/** The messages with values that may have made this text, those with most words first. */
+function patterns(text) {
+  if (!index) {
+    index = new Map();
+    const letters = (message) => message.replace(/\{\d+\}|[^\p{L}]/gu, "").length;
+    for (const [message, translation] of [...known].filter(([each]) => each.includes("{0}")).sort(([a], [b]) => letters(b) - letters(a))) {
+      const pattern = new RegExp(`^${message.split(/\{\d+\}/).map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")).join("([^]+?)")}$`);
+      const first = /^[^\s{]+(?=\s)/.exec(message)?.[0] ?? "";
+      index.set(first, [...(index.get(first) ?? []), { pattern, translation, open: letters(message) < 6 }]);
+    }
+  }
+  return [...(index.get(/^\S+/.exec(text)[0]) ?? []), ...(index.get("") ?? [])];
+}

@@ -1,0 +1,78 @@
+"""The page in the reader's language: what the program finds in its texts, a browser finds too; nothing is cut off."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page
+
+from docs.languages import __main__ as catalogues
+from docs.languages import page_texts
+from rotator.languages import LANGUAGES, catalogue
+from tests.page.conftest import Station
+
+STATIC = Path(catalogues.STATIC)
+VIEWS = "", "sky", "setup", "doctor", "paired", "wires", "log", "files"
+OTHERS = [language for language in LANGUAGES if language != "en"]
+CUT = """async (templates) => {
+    const { cut } = await import("/words.js");
+    return templates.map((texts) => { const found = []; cut(texts, (text) => void found.push(text)); return found; });
+}"""
+SAID = 'async (texts) => { const { said } = await import("/words.js"); return texts.map(said); }'
+CUT_OFF = """() => [...document.querySelectorAll("button, h1, h2, h3, summary, nav a, label, .lamps li, dt")]
+    .filter((each) => each.offsetParent && each.scrollWidth > each.clientWidth + 1)
+    .filter((each) => getComputedStyle(each).display !== "inline")
+    .map((each) => `${each.tagName} ${each.innerText}`)"""
+
+
+def test_a_browser_finds_the_texts_that_the_catalogues_have(
+    start: Callable[..., Station], visit: Callable[..., Page]
+) -> None:
+    templates = [
+        each.texts
+        for path in sorted(STATIC.glob("*.js"))
+        for each in page_texts.literals(path.read_text(encoding="utf-8"))
+        if each.tag == "html"
+    ]
+    assert len(templates) > 100
+    page = visit(start())
+    assert page.evaluate(CUT, templates) == [page_texts.cut(texts) for texts in templates]
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_a_sentence_is_taken_for_no_other_one(
+    start: Callable[..., Station], visit: Callable[..., Page], language: str
+) -> None:
+    page = visit(start(page=f'language = "{language}"'))
+    assert page.evaluate("document.documentElement.lang") == language
+    filled: dict[str, str] = {}
+    for text, told in catalogue(language).items():
+        if re.search(r"[A-Za-z]{3}", re.sub(r"\{\d+\}", "", text)):
+            filled[_with_values(text)] = _with_values(told)
+    wrong = [
+        (text, found, told)
+        for (text, told), found in zip(filled.items(), page.evaluate(SAID, list(filled)), strict=True)
+        if found != told
+    ]
+    assert wrong == []
+
+
+def _with_values(text: str) -> str:
+    return re.sub(r"\{(\d+)\}", lambda found: f"{17 * (1 + int(found[1]))}", text)
+
+
+@pytest.mark.parametrize("width", [320, 1366])
+@pytest.mark.parametrize("language", ["de", "fr"])
+def test_no_word_is_cut_off(
+    start: Callable[..., Station], visit: Callable[..., Page], language: str, width: int
+) -> None:
+    page = visit(start(), locale=language, viewport={"width": width, "height": 900})
+    found = []
+    for view in VIEWS:
+        page.goto(f"{page.url.partition('#')[0]}#{view}")
+        page.locator("main").wait_for()
+        found += [f"#{view}: {each}" for each in page.evaluate(CUT_OFF)]
+    assert found == []
