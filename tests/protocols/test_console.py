@@ -122,6 +122,8 @@ MISTAKES = [
     (b"point 2x5 25", "'2x5' is no azimuth: degrees from -360 to 720"),
     (b"point 1e999 25", "'1e999' is no azimuth: degrees from -360 to 720"),
     (b"point \xb2 25", "'\\xb2' is no azimuth: degrees from -360 to 720"),
+    (b"nudge azimuth -1,5", "there is no target to nudge: track or point first"),
+    (b"nudge azimuth 21", "'21' is no nudge: degrees from -20 to 20"),
     (b"confirm azimuth", "write it like this: confirm azimuth|elevation DEGREES"),
     (b"confirm azimuth here", "'here' is no azimuth: degrees from -360 to 720"),
     (b"confirm elevation inf", "'inf' is no elevation: degrees from -90 to 210"),
