@@ -46,11 +46,13 @@ SINGLE = (
         "CUT THE MOTOR POWER",
         "SWITCH IT OFF!",
         "{0}: {1}, limit {2}",
+        "{0} (rotator help {1})",
         "on",
         "off",
         "doubted",
         "today",
     ),
+    *("N", "E", "S", "W", "now", "done"),
     *("clockwise", "counter-clockwise", "up", "down", "UP", "DOWN"),
 )
 """Words that are no sentence, so that nothing finds them by itself."""

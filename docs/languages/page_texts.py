@@ -76,7 +76,8 @@ def _run(source: str, at: int, found: list[Template], until: str) -> int:
 _STRING = re.compile(r"\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)*'")
 _REGEX = re.compile(r"/(?:[^/\\\n\[]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/[a-z]*")
 _UNREAD = re.compile(
-    r"(?:class|d|points|transform|viewBox|href|key|id|for|type|style|role|value|x|y|cx|cy|r|[a-z]+-anchor|aria-current)=$"
+    r"\s(?:class|d|points|transform|viewBox|href|key|id|for|type|style|role|value|[xyr]|c[xy]"
+    r"|[a-z]+-anchor|aria-current)=$"
 )
 _NAME = re.compile(r"[\w$]*$")
 

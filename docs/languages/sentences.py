@@ -20,13 +20,12 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = (
     *("rotator/control", "rotator/exchange", "rotator/rotors", "rotator/tracking", "rotator/views/words.py"),
     *("rotator/runtime/card_watch.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
-    *("rotator/protocols/methods.py", "rotator/protocols/panel_words.py", "rotator/protocols/damaged.py"),
-    *("rotator/web", "rotator/store/paired.py", "rotator/links/wire.py", "rotator/setup/questions.py"),
+    *("rotator/web", "rotator/links/wire.py", "rotator/setup/questions.py"),
 )
 _SENTENCE = re.compile(r"[a-z]{2,},? [a-z({\d]|[A-Za-z]{2,} [a-z]{2,}|^\{0\}[:,]? [a-z]{2,}|^[A-Z]{3,} [A-Z]{2,}")
 _NO_SENTENCE = re.compile(
-    r"^[-abs]{3} [-abs]{3} |^bold|: write .*rotator|^[\w.-]+$|[<>]|^/|\\|==|^rotator [a-z]|Content-|\bsvg\b"
-    r"|^[a-z-]+ '|; |%[sd]|`"
+    r"^[-abs]{3} [-abs]{3} |^\{0\}\{1\}|/api/|max-age|stop = true|as the body of|^bold|: write .*rotator|^[\w.-]+$"
+    r"|[<>]|^/|\\|==|^rotator [a-z]|Content-|\bsvg\b|^[a-z-]+ '|; |%[sd]|`"
 )
 _SILENT = frozenset(
     [
@@ -44,9 +43,10 @@ MOST_CHOICES = 8
 def messages(path: Path) -> list[str]:
     """The messages of one file."""
     found = [text for node in _read_nodes(ast.parse(path.read_text(encoding="utf-8"))) for text in _texts(node)]
-    return [
-        text for text in dict.fromkeys(map(_clean, found)) if _SENTENCE.search(text) and not _NO_SENTENCE.search(text)
-    ]
+    wanted = [text for text in dict.fromkeys(map(_clean, found)) if _SENTENCE.search(text)]
+    # In the page's own room what begins with a capital describes the API.
+    described = "web" in path.parts
+    return [text for text in wanted if not (_NO_SENTENCE.search(text) or (described and text[:1].isupper()))]
 
 
 def _clean(text: str) -> str:
@@ -64,8 +64,6 @@ def _read_nodes(tree: ast.AST) -> Iterator[ast.expr]:
                 continue
             case ast.Subscript(value=ast.Name(id="Literal" | "Annotated")):
                 continue
-            case ast.Assign(value=ast.Tuple(elts=[ast.Constant(value=str()), ast.Call() | ast.Name(), *_])):
-                continue  # what a route answers, for the description of the API
             case ast.Raise(exc=ast.Call(func=ast.Name(id="AssertionError" | "TypeError" | "RuntimeError"))):
                 continue
             case ast.Constant(value=str()) | ast.JoinedStr():

@@ -20,7 +20,6 @@ _TYPES = {
     ".js": SCRIPT,
     ".mjs": SCRIPT,
     ".svg": "image/svg+xml",
-    ".png": "image/png",
     ".webmanifest": "application/manifest+json",
 }
 HEADERS = {

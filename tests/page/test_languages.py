@@ -11,6 +11,8 @@ from playwright.sync_api import Page
 
 from docs.languages import __main__ as catalogues
 from docs.languages import page_texts
+from hw.ports import Axis
+from rotator.exchange.faults import Fault, FaultKind
 from rotator.languages import LANGUAGES, catalogue
 from tests.page.conftest import Station
 
@@ -58,6 +60,20 @@ def test_a_sentence_is_taken_for_no_other_one(
         if found != told
     ]
     assert wrong == []
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_a_fault_is_said_whole(start: Callable[..., Station], visit: Callable[..., Page], language: str) -> None:
+    page, words = visit(start(page=f'language = "{language}"')), catalogue(language)
+    seen = "its motor runs {0}, but it stands at {1}°"
+    for kind in FaultKind:
+        fault = Fault(kind, Axis.AZIMUTH, seen.format("up", "5.0"), "1.0°/s", act_now="CUT MOTOR POWER!")
+        (said,) = page.evaluate(SAID, [str(fault)])
+        measured = words.get(seen, seen).format(words.get("up", "up"), "5.0")
+        for text in (kind.text, measured, "CUT MOTOR POWER!"):
+            assert words.get(text, text) in said
+        advice = kind.advice.replace("AXIS", "{0}")
+        assert words.get(advice, advice).replace("{0}", words.get("azimuth", "azimuth")) in said
 
 
 def _with_values(text: str) -> str:

@@ -6,6 +6,7 @@ import { language, messages } from "/language.js";
 const FIRST = 0xe000, VALUE = /[\ue000-\uf8ff]/, VALUES = /[\ue000-\uf8ff]/g, WORD = /\p{L}{2}/u, AT_LINES = /^\s*\n\s*|\s*\n\s*$/g;
 const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE = /([\w-]+)=(?:"([^"]*)"|'([^']*)')/g, GIVEN = /([\w-]+)=([\ue000-\uf8ff])/g;
 const READ = ["aria-label", "title", "placeholder", "label", "alt"], VERBATIM = ["code", "pre", "svg", "style"], MOST_KEPT = 3000;
+const SEPARATORS = [/([.!?;] +|[.!?]+$)/, /(: +)/, /(, +)/, /( and )/, /( ?\(|\)$)/];
 const known = new Map(Object.entries(messages)), kept = new Map(), cuts = new WeakMap();
 
 /** Texts that were shown, and have no translation: for the tests. */
@@ -51,14 +52,14 @@ export function inWords(texts, values) {
 
 /** A sentence with its numbers and names, in the reader's language. */
 export function said(text) {
-  if (!known.size || !WORD.test(text)) return text;
-  if (!kept.has(text)) {
+  if (!WORD.test(text)) return known.get(text) || text;
+  if (known.size && !kept.has(text)) {
     if (kept.size > MOST_KEPT) kept.clear();
     const plain = text.trim(), told = found(plain);
     if (told === null) missed.add(plain);
     kept.set(text, told === null ? text : text.replace(plain, () => told));
   }
-  return kept.get(text);
+  return kept.get(text) ?? text;
 }
 
 /** Null: it is in no catalogue. A sentence is looked for as it stands, by its pattern, then piece by piece. */
@@ -67,24 +68,29 @@ function found(text) {
   const small = text[0].toLowerCase() + text.slice(1), told = small !== text && known.get(small);
   if (told) return told[0].toUpperCase() + told.slice(1);
   for (const { pattern, translation, open } of patterns(text)) {
-    const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value) : value]);
+    const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value.trim()) : value]);
     if (values && !(open && values.some(([, inWords]) => inWords === null))) return translation.replace(/\{(\d+)\}/g, (_, at) => values[at][1] ?? values[at][0]);
   }
-  const pieces = text.split(/((?<=[.:;,!?]) +|\.$| and )/), others = pieces.map((piece) => (piece === " and " ? known.get("and") && ` ${known.get("and")} ` : piece !== text && WORD.test(piece) ? found(piece) : null));
-  return others.some((each) => each !== null) ? pieces.map((piece, at) => others[at] ?? piece).join("") : null;
+  const pieces = SEPARATORS.map((separator) => text.split(separator)).find((each) => each.length > 1) ?? [];
+  // A sentence may stand in the catalogue with its mark: "Stop it!"
+  const marked = (at) => known.get(pieces[at] + (pieces[at + 1] ?? "").trim())?.slice(0, -1);
+  const others = pieces.map((piece, at) => (piece === " and " ? known.has("and") && ` ${known.get("and")} ` : WORD.test(piece) ? found(piece) ?? marked(at) : null));
+  return others.some((each) => each) ? pieces.map((piece, at) => others[at] || piece).join("") : null;
 }
 
 let index;
 
-/** The messages with values that may have made this text, those with most words first. */
+/** The messages with values that may have made this text, those with most words first. One with hardly a word (`open`)
+    counts only where its values are words that are known. */
 function patterns(text) {
   if (!index) {
     index = new Map();
     const letters = (message) => message.replace(/\{\d+\}|[^\p{L}]/gu, "").length;
     for (const [message, translation] of [...known].filter(([each]) => each.includes("{0}")).sort(([a], [b]) => letters(b) - letters(a))) {
-      const pattern = new RegExp(`^${message.split(/\{\d+\}/).map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")).join("([^]+?)")}$`);
+      const open = letters(message) < 6, value = open ? "([^]+?)" : "([^]*?)";
+      const pattern = new RegExp(`^${message.split(/\{\d+\}/).map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")).join(value)}$`);
       const first = /^[^\s{]+(?=\s)/.exec(message)?.[0] ?? "";
-      index.set(first, [...(index.get(first) ?? []), { pattern, translation, open: letters(message) < 6 }]);
+      index.set(first, [...(index.get(first) ?? []), { pattern, translation, open }]);
     }
   }
   return [...(index.get(/^\S+/.exec(text)[0]) ?? []), ...(index.get("") ?? [])];
