@@ -29,11 +29,15 @@ check: style
 	$(BIN)/mypy
 
 tests: $(VENV)/.dev
-	$(BIN)/pytest -n 2 --dist worksteal $(if $(TESTS),$(TESTS),-m "not search and not long and not quiet")
+	$(DRAWN) $(BIN)/pytest -n 2 --dist worksteal $(FROM) $(if $(TESTS),$(TESTS),-m "not search and not long and not quiet")
+
+# SEED: what the searches draw from; without it new cases each time.
+DRAWN := $(if $(SEED),ROTATOR_SEARCH_SEED=$(SEED))
+FROM := $(if $(SEED),--hypothesis-seed=$(SEED))
 
 # Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases, and each that takes long.
 test-search: $(VENV)/.dev
-	ROTATOR_SEARCH=whole $(BIN)/pytest -n 3 --dist worksteal -m "(hypothesis or search or long) and not quiet" tests tests/cli
+	$(DRAWN) ROTATOR_SEARCH=whole $(BIN)/pytest $(FROM) -n 3 --dist worksteal -m "(hypothesis or search or long) and not quiet" tests tests/cli
 
 # What happens in real time and a busy machine would spoil: links, adapters and processes that stand still or go away.
 test-quiet: $(VENV)/.dev

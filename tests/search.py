@@ -8,10 +8,13 @@ of its own. What it looks for is the same in both.
 from __future__ import annotations
 
 import os
+import random
 from collections.abc import Sequence
 from typing import TypeVar
 
 WHOLE = os.environ.get("ROTATOR_SEARCH") == "whole"
+SEED = os.environ.setdefault("ROTATOR_SEARCH_SEED", str(random.SystemRandom().randrange(10**6)))
+"""What the drawn cases begin with: a new one each time, or the one that is given. All processes of a run share it."""
 SHARE, LEAST = 8, 10
 """One case in so many, but of drawn examples no fewer than these."""
 Case = TypeVar("Case")

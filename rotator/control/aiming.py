@@ -1,6 +1,6 @@
 """What both axes are asked to point at, and the goals that follow from it.
 
-Knows the latest order as it was asked, the nudges of the panel, and both axes. Gives each axis its goal. Knows nothing
+Knows the latest order as it was asked, the nudges of a person, and both axes. Gives each axis its goal. Knows nothing
 of senders, of stops that latch, or of faults.
 """
 
@@ -38,6 +38,7 @@ class _Paused:
     asked: tuple[Aim, float] | None
     flight: Flight | None
     pointing: Pointing
+    nudged_deg: Mapping[Axis, float]
 
 
 class Aiming:
@@ -67,7 +68,8 @@ class Aiming:
 
     def pause(self, source: Source, now_s: float) -> None:
         """`source` stops what it ordered: note it, in case its next direction comes at once."""
-        self._paused = _Paused(source, now_s, self._asked, self._flight, copy(self._pointing))
+        nudged_deg = self._nudges.of_pass_deg
+        self._paused = _Paused(source, now_s, self._asked, self._flight, copy(self._pointing), nudged_deg)
 
     def take_up(self, source: Source, now_s: float) -> None:
         """A direction from `source` has come. Right after its own stop its stream goes on as though it had not sent
@@ -77,6 +79,7 @@ class Aiming:
             self._pointing.interrupted = False
             return
         self._asked, self._flight, self._pointing = paused.asked, paused.flight, paused.pointing
+        self._nudges.of_pass_deg = paused.nudged_deg
         # In the same cycle no relay has opened.
         self._pointing.interrupted = now_s > paused.at_s
         if self._flight is not None:
@@ -87,6 +90,8 @@ class Aiming:
         wanted = self._pointing.wanted
         by_axes = self._named_by_axes() if asked.place and None in (asked.azimuth_deg, asked.elevation_deg) else None
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
+        if self._asked is not None:
+            self._nudges.end_at_leap(self._asked[0], asked)
         aim = self._nudges.applied(asked)
         if not aim.engaged:
             self._end_flight()
@@ -127,6 +132,8 @@ class Aiming:
     def fly(self, order: Fly, now_s: float) -> None:
         """Fly a planned pass from now on. Raises Unreachable; then everything is as it was."""
         flight = Flight(order, self._mount)
+        if self._flight is None or not self._flight.is_pass_of(flight):
+            self._nudges.end_pass()
         self.forget(BOTH)
         self._flight = flight
         self._fly_on(now_s)
@@ -186,14 +193,23 @@ class Aiming:
         self._asked = self._flight = None
         self._set_goals(goals)
 
-    def nudge(self, axis: Axis, offset_deg: float) -> None:
-        """Shift all orders for this axis by this angle from now on."""
-        by_deg = self._nudges.set(axis, offset_deg)
+    @property
+    def nudged_deg(self) -> Mapping[Axis, float]:
+        """By how much a person has shifted the target in force."""
+        return self._nudges.of_pass_deg
+
+    def nudge(self, axis: Axis, offset_deg: float, *, of_pass: bool) -> None:
+        """Shift all orders for this axis by this angle from now on. `of_pass`: only those for the target in force."""
+        by_deg = self._nudges.set(axis, offset_deg, of_pass=of_pass)
         if self._asked is not None:
             self._pointing.shift(*((by_deg, 0.0) if axis is Axis.AZIMUTH else (0.0, by_deg)))
 
     def clear_nudges(self) -> None:
         self._nudges.clear()
+
+    def end_pass_nudges(self) -> None:
+        """Another target comes: it is not shifted as the one before."""
+        self._nudges.end_pass()
 
     def repeat(self, now_s: float) -> bool:
         """Point again at the order in force, with the present nudges. Returns whether there is one.
@@ -249,6 +265,8 @@ class Aiming:
 
     def look_ahead(self, now_s: float) -> None:
         """Move the goals on with a moving target, for the axes that still aim at it, and lead them round sectors."""
+        if self._asked is None and self._flight is None:
+            self._nudges.end_pass()
         if self._flight is not None:
             self._fly_on(now_s)
             self._round.lead(now_s)

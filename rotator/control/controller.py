@@ -162,6 +162,8 @@ class Controller:
             mode_by=authority.mode_by,
             mode_switch=self._settings.mode is not Mode.AUTO,
             flown=movements.flown,
+            nudge_azimuth_deg=movements.nudged_deg[Axis.AZIMUTH],
+            nudge_elevation_deg=movements.nudged_deg[Axis.ELEVATION],
             notices=authority.ignored(now_s),
             cycle_late_s=late_s,
         )
@@ -212,8 +214,8 @@ class Controller:
             case TakeTurn():
                 if self._authority.controlled_by == source:
                     self._movements.take_turn(order, now_s)
-            case Nudge(axis, offset_deg):
-                self._movements.nudge(axis, offset_deg, now_s, at_once=not self._authority.latched)
+            case Nudge():
+                self._movements.nudge(order, now_s, at_once=not self._authority.latched)
             case Fly(stream=Stream()):
                 # Ignored if another sender moved the antenna while the plan was computed.
                 if self._authority.controlled_by == source:

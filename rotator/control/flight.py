@@ -70,6 +70,10 @@ class Flight:
             return self.following.silent(now_s)
         return now_s >= self._path.end_s and all(now_s >= _end_s(plan) for plan in self._plans.values())
 
+    def is_pass_of(self, other: Flight) -> bool:
+        """Whether the other flight is one more piece of this pass, or the same one planned again."""
+        return self.flown.name == other.flown.name and other.flown.begin_s < self.flown.end_s
+
     def begin_goals_anew(self) -> None:
         """Give the goals of this moment once more."""
         self._given.clear()

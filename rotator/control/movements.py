@@ -20,8 +20,8 @@ from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
 from rotator.exchange.faults import Notice
 from rotator.exchange.flight_order import Fly, TakeTurn
-from rotator.exchange.orders import BOTH, Aim, Home, Jog, LoadTimed, Order, Park, RunTimed
-from rotator.exchange.sources import Source
+from rotator.exchange.orders import BOTH, Aim, Home, Jog, LoadTimed, Nudge, Order, Park, RunTimed
+from rotator.exchange.sources import TRACKER, Source
 from rotator.exchange.status import Flown
 
 
@@ -69,6 +69,8 @@ class Movements:
         moved: Collection[Axis] = BOTH
         if isinstance(order, Aim):
             self._aiming.take_up(source, now_s)
+            if source.is_person or source.link == TRACKER:
+                self._aiming.end_pass_nudges()
         match order:
             case Aim() if self._aiming.flies_on(source, order, now_s):
                 pass
@@ -111,12 +113,17 @@ class Movements:
         self._idle.ended()
         self._aiming.park()
 
-    def nudge(self, axis: Axis, offset_deg: float, now_s: float, *, at_once: bool) -> None:
+    def nudge(self, order: Nudge, now_s: float, *, at_once: bool) -> None:
         """Shift all orders from now on. `at_once`: the target in force too. Raises Refused."""
-        self._aiming.nudge(axis, offset_deg)
+        self._aiming.nudge(order.axis, order.offset_deg, of_pass=order.of_pass)
         if at_once and self._aiming.repeat(now_s):
-            self._axes[axis].nudged()
+            self._axes[order.axis].nudged()
             self._idle.ordered(now_s)
+
+    @property
+    def nudged_deg(self) -> Mapping[Axis, float]:
+        """By how much a person has shifted the target in force."""
+        return self._aiming.nudged_deg
 
     def clear_nudges(self) -> None:
         self._aiming.clear_nudges()

@@ -131,6 +131,8 @@ class Nudge:
 
     axis: Axis
     offset_deg: float
+    of_pass: bool = False
+    """Only the target in force is shifted, and no later one. It is added to the shift that lasts."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -230,6 +230,9 @@ class Status:
     """Whether a front panel has a mode switch."""
     flown: Flown | None = None
     """The planned pass that is flown; None: no planned pass."""
+    nudge_azimuth_deg: float = 0.0
+    """By how much a person has shifted the target in force, from the page or the console: until it ends."""
+    nudge_elevation_deg: float = 0.0
     notices: tuple[str, ...] = ()
     """The sources whose orders have no effect, and why. A trouble keeps the same text as long as it lasts."""
     unkept: Notice | None = None

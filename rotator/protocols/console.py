@@ -19,6 +19,7 @@ from rotator.exchange.orders import (
     Jog,
     LetGo,
     Mode,
+    Nudge,
     Order,
     Park,
     RelaysChecked,
@@ -32,6 +33,8 @@ from rotator.protocols.panel_words import OPERANDS, TURNS, Hand, parse_hand
 
 LONGEST_JOG_S = 5.0
 PULSE_S = 0.2
+MOST_NUDGE_DEG = 20.0
+"""Further away it is another target: then point there."""
 
 
 class Ask(Enum):
@@ -115,6 +118,7 @@ VERBS = (
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("pulse", "cw|ccw|up|down", f"Close this relay for {1000 * PULSE_S:g} ms, while the antenna stands"),
     Verb("point", "AZIMUTH [ELEVATION]", "Point there; without ELEVATION that axis keeps what it has"),
+    Verb("nudge", "azimuth|elevation DEGREES", "Shift the target in force by so much, until the pass ends; 0 ends it"),
     Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|plan|off]", "Track a satellite, Sun, Moon … from pass to pass"),
     Verb("table", "[LINE]", "One more line of a timed table, the first is t,az,el; alone: forget the lines"),
     Verb("track-table", "NAME", "Track the table of these lines: t in seconds from now, or in UTC"),
@@ -164,6 +168,8 @@ def parse(line: bytes) -> ConsoleCommand:
         case ["point", azimuth, *elevation] if len(elevation) <= 1:
             elevation_deg = _degrees(Axis.ELEVATION, elevation[0]) if elevation else None
             return aim(_degrees(Axis.AZIMUTH, azimuth), elevation_deg)
+        case ["nudge", "azimuth" | "elevation" as axis, angle]:
+            return Nudge(Axis(axis), _nudge_deg(angle), of_pass=True)
         case ["track", *what]:
             return Track(" ".join(what))
         case ["table"]:
@@ -206,6 +212,13 @@ def _degrees(axis: Axis, text: str) -> float:
     if angle_deg is None or not low_deg <= angle_deg <= high_deg:
         raise ValueError(f"{_quoted(text)} is no {axis.value}: degrees from {low_deg:g} to {high_deg:g}")
     return angle_deg
+
+
+def _nudge_deg(text: str) -> float:
+    offset_deg = degrees(text)
+    if offset_deg is None or abs(offset_deg) > MOST_NUDGE_DEG:
+        raise ValueError(f"{_quoted(text)} is no nudge: degrees from {-MOST_NUDGE_DEG:g} to {MOST_NUDGE_DEG:g}")
+    return offset_deg
 
 
 def _seconds(text: str) -> float:

@@ -19,6 +19,7 @@ from rotator.exchange.orders import (
     Jog,
     LetGo,
     Mode,
+    Nudge,
     Park,
     RelaysChecked,
     Release,
@@ -27,7 +28,7 @@ from rotator.exchange.orders import (
     Take,
 )
 from rotator.protocols.aiming import aim
-from rotator.protocols.console import LONGEST_JOG_S, PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
+from rotator.protocols.console import LONGEST_JOG_S, MOST_NUDGE_DEG, PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
 from rotator.protocols.panel_words import TURNS
 
 LONGEST_TARGET = 100
@@ -151,6 +152,12 @@ METHODS = (
         f"Close this relay for {1000 * PULSE_S:g} ms, while the antenna stands; on the page `take` it first",
         lambda turn: Pulse(*TURNS[turn]),
         (_TURN,),
+    ),
+    Method(
+        "nudge",
+        "Shift the target in force by this angle, while it is tracked on; 0 ends it, and so does the end of the pass",
+        lambda axis, offset_deg: Nudge(Axis(axis), offset_deg, of_pass=True),
+        (_AXIS, Number("offset_deg", -MOST_NUDGE_DEG, MOST_NUDGE_DEG, "from where it is computed", 1)),
     ),
     Method("park", "Go to the park position, and stay there until `resume`", lambda: Park(storm=True)),
     Method(

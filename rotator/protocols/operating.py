@@ -21,6 +21,7 @@ from rotator.exchange.orders import (
     Jog,
     LetGo,
     Mode,
+    Nudge,
     Order,
     RelaysChecked,
     Release,
@@ -182,6 +183,8 @@ def _beyond(order: Order, status: Status) -> str:
         case Jog(name, direction) if (axis := status.axis(name)).at_end(direction):
             end_deg = axis.max_deg if direction > 0 else axis.min_deg
             return f"{name.value} stands at the end of its range, {end_deg:g}°: it turns only the other way"
+        case Nudge() if status.wanted_azimuth_deg is None and status.wanted_elevation_deg is None:
+            return "there is no target to nudge: track or point first"
         case _:
             return ""
     azimuth, elevation = status.azimuth, status.elevation

@@ -172,7 +172,13 @@ def by_itself(axis: Axis, each: AxisStatus) -> str:
 
 
 def notes(status: Status) -> list[str]:
-    return [f"{axis.value}: {notice}" for axis in status.fitted for notice in status.axis(axis).notices]
+    by_deg = {Axis.AZIMUTH: status.nudge_azimuth_deg, Axis.ELEVATION: status.nudge_elevation_deg}
+    nudged = [
+        f"{axis.value}: nudged by {degrees(by_deg[axis], sign=True)} until the pass ends"
+        for axis in status.fitted
+        if by_deg[axis]
+    ]
+    return nudged + [f"{axis.value}: {notice}" for axis in status.fitted for notice in status.axis(axis).notices]
 
 
 def lacks(status: Status) -> list[str]:

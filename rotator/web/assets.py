@@ -20,6 +20,7 @@ _TYPES = {
     ".js": SCRIPT,
     ".mjs": SCRIPT,
     ".svg": "image/svg+xml",
+    ".png": "image/png",
     ".webmanifest": "application/manifest+json",
 }
 HEADERS = {

@@ -35,7 +35,7 @@ PATIENCE_MS, LOOK_MS = 30_000, 50
 CHROMIUM = "/usr/bin/chromium"
 QUIET = (
     *("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"),
-    *("--disable-component-update", "--disable-sync"),
+    *("--disable-component-update", "--disable-sync", "--host-resolver-rules=MAP rotator.lan 127.0.0.1"),
 )
 
 

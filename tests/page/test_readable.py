@@ -87,7 +87,14 @@ def test_nothing_is_wider_than_the_screen_and_stop_is_on_it(start: Start, visit:
 
 
 # By the letters of the view's link. Of the Sky the table of passes is waited for, of Setup every step is opened.
-VIEWS = {"Antenna": ".board", "Sky": ".passes td", "Setup": ".step", "Help": ".doctor li", "Log": ".log td"}
+VIEWS = {
+    "Antenna": ".board",
+    "Sky": ".passes td",
+    "Setup": ".step",
+    "Help": ".doctor li",
+    "Log": ".log td",
+    "Pass": ".passmode",
+}
 COMPUTED_MS = 150_000
 """Passes and checks take their time on a busy machine."""
 BEYOND = """() => {

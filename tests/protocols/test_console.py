@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -17,6 +18,7 @@ from rotator.exchange.orders import (
     Jog,
     LetGo,
     Mode,
+    Nudge,
     Order,
     Park,
     RelaysChecked,
@@ -56,6 +58,7 @@ CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"home elevation", Home(Axis.ELEVATION)),
     (b"confirm azimuth 123.4", Confirm(Axis.AZIMUTH, 123.4)),
     (b"confirm elevation -3", Confirm(Axis.ELEVATION, -3.0)),
+    (b"nudge azimuth -1.5", Nudge(Axis.AZIMUTH, -1.5, of_pass=True)),
     (b"relays-checked elevation", RelaysChecked(Axis.ELEVATION)),
     (b"let-go", LetGo()),
     (b"park", Park(storm=True)),
@@ -97,7 +100,7 @@ ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
 ]
 COMMANDS = (
-    "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, pulse, point, track, table, "
+    "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, pulse, point, nudge, track, table, "
     "track-table, take, give-back, mode, clock-is-right, panel, pair, help"
 )
 MISTAKES = [
@@ -122,6 +125,8 @@ MISTAKES = [
     (b"point 2x5 25", "'2x5' is no azimuth: degrees from -360 to 720"),
     (b"point 1e999 25", "'1e999' is no azimuth: degrees from -360 to 720"),
     (b"point \xb2 25", "'\\xb2' is no azimuth: degrees from -360 to 720"),
+    (b"nudge azimuth -1,5", "there is no target to nudge: track or point first"),
+    (b"nudge azimuth 21", "'21' is no nudge: degrees from -20 to 20"),
     (b"confirm azimuth", "write it like this: confirm azimuth|elevation DEGREES"),
     (b"confirm azimuth here", "'here' is no azimuth: degrees from -360 to 720"),
     (b"confirm elevation inf", "'inf' is no elevation: degrees from -90 to 210"),
@@ -145,6 +150,7 @@ def test_reads_as_well(line: bytes, said: ConsoleCommand) -> None:
 @every_row(("line", "order"), [each for each in CANONICAL if isinstance(each[1], Order)])
 def test_an_order_is_handed_on_and_answered(feed: Feed, line: bytes, order: Order) -> None:
     box = Notebook()
+    box.shown = replace(box.shown, wanted_azimuth_deg=10.0)
     assert feed(ConsoleSession(box), line + b"\n") == [b"ok\n"]
     assert box.orders == [order]
 

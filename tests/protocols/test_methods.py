@@ -30,6 +30,7 @@ SAME = [
     (b"pulse up", "pulse", {"turn": "up"}),
     (b"track iss", "track", {"target": " iss "}),
     (b"home azimuth", "home", {"axis": "azimuth"}),
+    (b"nudge azimuth -1.5", "nudge", {"axis": "azimuth", "offset_deg": -1.5}),
     (b"confirm elevation 12", "confirm", {"axis": "elevation", "angle_deg": 12}),
     (b"relays-checked azimuth", "relays-checked", {"axis": "azimuth"}),
 ]

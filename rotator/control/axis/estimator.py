@@ -357,6 +357,7 @@ class Estimator:
             ):
                 return None
             longer = self.trend.slope(now_s - 1.0) if now_s - begun_s >= STEADY_S else None
-            steady = longer is not None and abs(longer.speed_dps - slope.speed_dps) <= 3.0 * slope.error_dps
+            # No motor is faster than in the second before: a short line that says so is tilted by noise.
+            steady = longer is not None and (longer.speed_dps - slope.speed_dps) * slope.way <= 3.0 * slope.error_dps
             return longer if longer is not None and steady and longer.error_dps < slope.error_dps else slope
         return None

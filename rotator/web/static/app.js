@@ -6,6 +6,7 @@ import { Errands } from "/errands.js";
 import { Asks, directionOf, JogPad, Target, ThereFromSky, Track } from "/hand.js";
 import { Help, helps } from "/help.js";
 import { Pair, Paired } from "/pairing.js";
+import { PassMode } from "/pass.js";
 import { Passes } from "/passes.js";
 import { Control, Front, Headline, Links, Mode, Notes, Strip } from "/panels.js";
 import { Setup } from "/setup.js";
@@ -67,7 +68,7 @@ function Antenna({ station, now, hello, fresh, say }) {
   </main>`;
 }
 
-const VIEWS = [["", "Antenna"], ["sky", "Sky"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
+const VIEWS = [["", "Antenna"], ["sky", "Sky"], ["pass", "Pass"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
 
 /** The view that the address names; of one that is not known the first. */
 function shownView() {
@@ -97,6 +98,7 @@ function Page() {
     ${now && html`<${Strip} now=${now} paired=${hello.paired} fresh=${fresh} beside=${view === ""} said=${said} say=${say} />`}
     ${now && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}
     ${now && view === "sky" && html`<main><${Passes} now=${now} station=${station} hello=${hello} say=${say} /></main>`}
+    ${now && view === "pass" && html`<${PassMode} now=${now} station=${station} hello=${hello} fresh=${fresh} say=${say} />`}
     ${now && helps(view) && html`<${Help} view=${view} now=${now} hello=${hello} onPaired=${() => live.connect()} />`}
     ${now && (view === "setup" || view === "paired") && html`<main>${!hello.paired ? html`<${Pair} onPaired=${() => live.connect()} />`
       : view === "setup" ? html`<${Setup} now=${now} hello=${hello} say=${say} />`

@@ -154,3 +154,62 @@ def test_one_axis_alone(desk: Any) -> None:
     desk.step(Nudge(EL, 7.0), by=PANEL)
     desk.step(Aim(None, 60.0), by=LINK)
     assert targets(desk) == (None, 67.0)
+
+
+# --- the nudge of a pass, which a person sets on the page while it is tracked
+
+
+PAGE, TRACKS = Source("page", 1), Source("track")
+
+
+def nudge_of_pass(desk: Any) -> tuple[float, float]:
+    return desk.status.nudge_azimuth_deg, desk.status.nudge_elevation_deg
+
+
+def test_the_nudge_of_a_pass_rides_on_the_flight_and_on_the_panels_nudge(desk: Any) -> None:
+    desk.step(Nudge(EL, 10.0), by=PANEL)
+    desk.step(KNOWN, by=TRACKS)
+    desk.step(Nudge(AZ, 2.0, of_pass=True), Nudge(EL, -1.0, of_pass=True), by=PAGE)
+    assert targets(desk) == (102.0, 39.0)
+    assert nudge_of_pass(desk) == (2.0, -1.0)
+    assert desk.status.flown.name == "ISS", "it is tracked on"
+    desk.step(Nudge(AZ, 0.0, of_pass=True), Nudge(EL, 0.0, of_pass=True), by=PAGE)
+    assert targets(desk) == (100.0, 40.0)
+
+
+@pytest.mark.parametrize(
+    ("order", "by", "ends"),
+    [
+        (replace(KNOWN, name="SO-50"), TRACKS, True),
+        (KNOWN, TRACKS, False),
+        (Stop(latch=True), PAGE, True),
+        (Jog(AZ, Direction.PLUS, 0.1), PAGE, True),
+        (Aim(101.0, 20.0), PAGE, True),
+        (Park(), PAGE, True),
+        (SetMode(Mode.MANUAL), PAGE, True),
+    ],
+)
+def test_it_ends_with_the_pass_and_with_what_ends_it(desk: Any, order: Any, by: Source, ends: bool) -> None:
+    desk.step(KNOWN, by=TRACKS)
+    desk.step(Nudge(AZ, 2.0, of_pass=True), by=PAGE)
+    desk.step(order, by=by)
+    desk.step()
+    assert nudge_of_pass(desk) == ((0.0, 0.0) if ends else (2.0, 0.0))
+
+
+def test_it_ends_when_the_target_has_set(desk: Any) -> None:
+    desk.step(KNOWN, by=TRACKS)
+    desk.step(Nudge(AZ, 2.0, of_pass=True), by=PAGE)
+    desk.run(330.0)
+    assert nudge_of_pass(desk) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("next_deg", "stays"), [(104.0, True), (170.0, False)])
+def test_it_stays_on_a_programs_stream_until_that_leaps_to_another_target(
+    desk: Any, next_deg: float, stays: bool
+) -> None:
+    desk.step(Aim(100.0, 20.0), by=LINK)
+    desk.step(Nudge(AZ, 2.0, of_pass=True), by=PAGE)
+    desk.step(Stop(), by=LINK)
+    desk.step(Aim(next_deg, 20.0), by=LINK)
+    assert targets(desk)[0] == pytest.approx(next_deg + (2.0 if stays else 0.0))

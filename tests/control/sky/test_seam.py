@@ -15,9 +15,8 @@ from rotator.config.load import parse, shipped
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.route import Speeds
 from rotator.exchange.orders import Aim
-from tests.search import some
+from tests.search import SEED, some
 
-SEED = random.SystemRandom().randrange(10**6)
 TURNS_DEG = 90.0
 FROM_SEAM_DEG = 1.5
 """Rounding to whole degrees, and half a degree of prediction."""
