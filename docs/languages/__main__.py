@@ -45,7 +45,7 @@ SINGLE = (
         "CUT MOTOR POWER!",
         "CUT THE MOTOR POWER",
         "SWITCH IT OFF!",
-        "{0}: {1}, limit {2}",
+        "{0}, limit {1}",
         "{0} (rotator help {1})",
         "on",
         "off",

@@ -6,7 +6,7 @@ import { language, messages } from "/language.js";
 const FIRST = 0xe000, VALUE = /[\ue000-\uf8ff]/, VALUES = /[\ue000-\uf8ff]/g, WORD = /\p{L}{2}/u, AT_LINES = /^\s*\n\s*|\s*\n\s*$/g;
 const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE = /([\w-]+)=(?:"([^"]*)"|'([^']*)')/g, GIVEN = /([\w-]+)=([\ue000-\uf8ff])/g;
 const READ = ["aria-label", "title", "placeholder", "label", "alt"], VERBATIM = ["code", "pre", "svg", "style"], MOST_KEPT = 3000;
-const SEPARATORS = [/([.!?;] +|[.!?]+$)/, /(: +)/, /(, +)/, /( and )/, /( ?\(|\)$)/];
+const SEPARATORS = [/([.!?] +|[.!?]+$)/, /(; +)/, /(: +)/, /(, +)/, /( and )/, /( ?\(|\)$)/];
 const known = new Map(Object.entries(messages)), kept = new Map(), cuts = new WeakMap();
 
 /** Texts that were shown, and have no translation: for the tests. */
@@ -62,15 +62,16 @@ export function said(text) {
   return kept.get(text) ?? text;
 }
 
-/** Null: it is in no catalogue. A sentence is looked for as it stands, by its pattern, then piece by piece. */
-function found(text) {
+/** Null: it is in no catalogue. A sentence is looked for as it stands, by its pattern, then, if not `whole`, in pieces. */
+function found(text, whole) {
   if (known.get(text)) return known.get(text);
   const small = text[0].toLowerCase() + text.slice(1), told = small !== text && known.get(small);
   if (told) return told[0].toUpperCase() + told.slice(1);
   for (const { pattern, translation, open } of patterns(text)) {
-    const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value.trim()) : value]);
+    const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value.trim(), open) : value]);
     if (values && !(open && values.some(([, inWords]) => inWords === null))) return translation.replace(/\{(\d+)\}/g, (_, at) => values[at][1] ?? values[at][0]);
   }
+  if (whole) return null;
   const pieces = SEPARATORS.map((separator) => text.split(separator)).find((each) => each.length > 1) ?? [];
   // A sentence may stand in the catalogue with its mark: "Stop it!"
   const marked = (at) => known.get(pieces[at] + (pieces[at + 1] ?? "").trim())?.slice(0, -1);
