@@ -109,6 +109,11 @@ class Authority:
         mover = holder if by is not None and by.link == TRACKER else by
         return mover is not None and mover.link == PAGE
 
+    def program_sends(self, now_s: float) -> bool:
+        """Whether the antenna belongs to a program that sends: one whose pause is shorter than that of a stream."""
+        by = self.controlled_by
+        return by is not None and not by.is_person and by.link != TRACKER and self._senders.sends(by, now_s)
+
     @property
     def mode_by(self) -> str:
         return str(self._panel or "")

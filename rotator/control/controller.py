@@ -153,6 +153,7 @@ class Controller:
             storm=authority.storm,
             controlled_by=str(by or ""),
             controlled_from=by.host if by else "",
+            program_sends=authority.program_sends(now_s),
             held_by=str(authority.held_by or ""),
             timed_point=movements.timed.point,
             timed_points=len(movements.timed.points),

@@ -101,6 +101,11 @@ class Senders:
             return f"{by} moves the antenna now; {again}{anew}"
         return f"{by} has stopped the antenna; {again}{anew}" if (by := sender.stopped_by) else ""
 
+    def sends(self, source: Source, now_s: float) -> bool:
+        """Whether an order of `source` came less than the pause of a stream ago."""
+        sender = self._senders.get(source)
+        return sender is not None and now_s - sender.heard_s < PAUSE_S
+
     def streams(self, source: Source) -> bool:
         """Whether `source` sends a stream on its present connection alone."""
         sender = self._senders.get(source)

@@ -216,6 +216,8 @@ class Status:
     controlled_by: str = ""
     controlled_from: str = ""
     """The address of that sender's machine; empty: not known, or no network."""
+    program_sends: bool = False
+    """Whether that sender is a program whose latest order came a moment ago: more may follow."""
     held_by: str = ""
     """The person who has taken the antenna and not given it back; empty: no person holds it."""
     timed_point: int = 0

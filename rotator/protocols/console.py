@@ -28,6 +28,7 @@ from rotator.exchange.orders import (
     Stop,
     Take,
 )
+from rotator.orbits.demo_pass import FAST
 from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.panel_words import OPERANDS, TURNS, Hand, parse_hand
 
@@ -88,7 +89,15 @@ class Pulse:
     direction: Direction
 
 
-PersonCommand = Order | Track | ClockIsRight | Pulse
+@dataclass(frozen=True, slots=True)
+class Demo:
+    """Fly the demo pass over the continent of this time zone, this many times as fast as life."""
+
+    zone: str
+    times: int
+
+
+PersonCommand = Order | Track | ClockIsRight | Pulse | Demo
 """What a person may ask for on the page as well."""
 ConsoleCommand = PersonCommand | Ask | Hand | TableLine | TrackTable | Pair
 
@@ -122,6 +131,11 @@ VERBS = (
     Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|plan|off]", "Track a satellite, Sun, Moon … from pass to pass"),
     Verb("table", "[LINE]", "One more line of a timed table, the first is t,az,el; alone: forget the lines"),
     Verb("track-table", "NAME", "Track the table of these lines: t in seconds from now, or in UTC"),
+    Verb(
+        "demo",
+        "[TIME-ZONE] [life]",
+        "Simulated rotor: the ISS over your continent, 10 times as fast or as in life",
+    ),
     Verb("take", "", "Take the antenna: it stops, and programs do not move it until `give-back`"),
     Verb("give-back", "", "Let programs move it again, after you or a person on the page have held it"),
     Verb("mode", "auto|manual|jog|park", "Who moves it: programs, you alone, your jogs alone, nobody"),
@@ -178,6 +192,10 @@ def parse(line: bytes) -> ConsoleCommand:
             return TableLine(" ".join(cells))
         case ["track-table", name]:
             return TrackTable(name)
+        case ["demo", *zone, "life"] if len(zone) <= 1:
+            return Demo("".join(zone), 1)
+        case ["demo", *zone] if len(zone) <= 1:
+            return Demo("".join(zone), FAST)
         case ["clock-is-right"]:
             return ClockIsRight()
         case ["take"]:

@@ -27,8 +27,18 @@ from rotator.exchange.orders import (
     Stop,
     Take,
 )
+from rotator.orbits.demo_pass import FAST
 from rotator.protocols.aiming import aim
-from rotator.protocols.console import LONGEST_JOG_S, MOST_NUDGE_DEG, PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
+from rotator.protocols.console import (
+    LONGEST_JOG_S,
+    MOST_NUDGE_DEG,
+    PULSE_S,
+    ClockIsRight,
+    Demo,
+    PersonCommand,
+    Pulse,
+    Track,
+)
 from rotator.protocols.panel_words import TURNS
 
 LONGEST_TARGET = 100
@@ -100,13 +110,17 @@ Value = Number | Choice | Words
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """One method. `make` gets the values in the order of `values`. `free`: it needs no pairing."""
+    """One method. `make` gets the values in the order of `values`. `free`: it needs no pairing.
+
+    `harmless`: who may read may ask for it, too, for it moves a simulated antenna that nobody uses, and no other.
+    """
 
     name: str
     meaning: str
     make: Callable[..., PersonCommand]
     values: tuple[Value, ...] = ()
     free: bool = False
+    harmless: bool = False
 
     def command(self, sent: Mapping[str, object]) -> PersonCommand:
         """From the values that were sent. Raises WrongValuesError."""
@@ -165,6 +179,16 @@ METHODS = (
         "Track a satellite, Sun, Moon, a locator, a country; `plan`: those of the configuration; `off`: nothing",
         Track,
         (Words("target", "its name, as `rotator track` takes it", "Moon"),),
+    ),
+    Method(
+        "demo",
+        "On a simulated rotor that nobody uses: fly a pass of the ISS over your continent",
+        lambda zone, speed: Demo(zone.casefold(), 1 if speed == "life" else FAST),
+        (
+            Words("zone", "your time zone; one that is not known counts as Europe", "Europe/Prague"),
+            Choice("speed", ("fast", "life"), f"{FAST} times as fast as life, or as in life"),
+        ),
+        harmless=True,
     ),
     Method("clock-is-right", "You have seen that the box's clock is right: `track` needs it", ClockIsRight),
     Method("home", "Find the low end stop of an axis that counts pulses", lambda axis: Home(Axis(axis)), (_AXIS,)),

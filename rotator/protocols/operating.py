@@ -31,7 +31,7 @@ from rotator.exchange.orders import (
 )
 from rotator.exchange.sources import Refusal, Source
 from rotator.exchange.status import Status
-from rotator.protocols.console import PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
+from rotator.protocols.console import PULSE_S, ClockIsRight, Demo, PersonCommand, Pulse, Track
 from rotator.protocols.session import Box, Tracking
 
 SHOWN_S = 0.3
@@ -68,6 +68,8 @@ class Operating:
         match command:
             case Track(words):
                 return self.refuse(self._track(words))
+            case Demo(zone, times):
+                return self.refuse(self._demo(zone, times))
             case ClockIsRight():
                 if self._tracking is not None:
                     self._tracking.clock_is_right()
@@ -128,6 +130,24 @@ class Operating:
         if self._tracking is None:
             return NO_PLACE
         return self._tracking_held() or self._tracking.program(table) or self._hold()
+
+    def _demo(self, zone: str, times: int) -> str:
+        """Also for who has no right to move the antenna: so it takes a simulated one, and takes it from nobody."""
+        status = self._box.status()
+        if not status.simulated or self._tracking is None:
+            return "the demo pass is flown on a simulated rotor alone: this one turns a real antenna"
+        busy = ""
+        if status.held_by not in ("", str(self._source)):
+            busy = f"{status.held_by} holds the antenna"
+        elif status.flown is not None or self.tracks in ("planning", "tracking"):
+            busy = f"{status.flown.name if status.flown else 'another target'} is tracked already"
+        elif status.program_sends:
+            busy = f"{status.controlled_by} moves the antenna"
+        elif status.moving:
+            busy = "the antenna turns"
+        if busy:
+            return f"{busy}: the demo pass waits until nobody uses it"
+        return self._tracking_held() or _faulty(status) or self._tracking.demo(zone, times)
 
     def _tracking_held(self) -> str:
         """In every mode but AUTO the box itself moves nothing, also for the person who has set it."""

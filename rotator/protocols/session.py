@@ -35,6 +35,9 @@ class Tracking(Protocol):
     def program(self, table: TimedTable) -> str:
         """Begin to track a timed table. Returns why not; empty: it does."""
 
+    def demo(self, zone: str, times: int) -> str:
+        """Begin to fly the demo pass over the continent of this time zone. Returns why not; empty: it does."""
+
     def follow_plan(self) -> str:
         """Leave the antenna to the plan of many passes. Returns why not; empty: it has it."""
 

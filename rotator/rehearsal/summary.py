@@ -5,12 +5,11 @@ Knows the samples of a trace. Does not know how the antenna was pointed.
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from rotator.rehearsal.overhearing import Named
-from rotator.views.trace import Sample, errors_deg, rms
+from rotator.views.trace import Sample, errors_deg, p95, rms
 
 SAMPLE_S = 0.05
 """The time between two samples of a trace."""
@@ -39,7 +38,7 @@ def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
     errors = errors_deg(trace) or [0.0]
     return Summary(
         rms_deg=rms(errors),
-        p95_deg=errors[min(len(errors) - 1, math.ceil(0.95 * len(errors)) - 1)],
+        p95_deg=p95(errors),
         max_deg=errors[-1],
         relay_starts=relay_starts,
         motor_s=sum(abs(sample.az_drive) + abs(sample.el_drive) for sample in trace) * SAMPLE_S,

@@ -1,4 +1,4 @@
-"""A flight along a timed table that a person has handed in (program track).
+"""A flight along a timed table that a person has handed in (program track), or along that of a demo pass.
 
 Knows the time from which a table counts. It computes for up to some seconds, so `planner` gives it a process of its
 own. Knows no clock and no thread.
@@ -12,7 +12,9 @@ from rotator.control.sky.flight_plan import Antenna, plan_flight, plan_given_ang
 from rotator.control.sky.known_path import KnownPath, Row
 from rotator.control.sky.named_turns import axis_rows, names_turns, on_the_sky, smooth_turns
 from rotator.control.sky.timed_table import TimedTable, hindrance, smooth
+from rotator.orbits.demo_pass import demo_pass
 from rotator.tracking.next_flight import AHEAD_S, LONGEST_S, NextFlight, Now
+from rotator.tracking.travel import Travel
 
 
 class CannotFly(Exception):  # noqa: N818 - a sentence about a table
@@ -25,6 +27,24 @@ class Program:
 
     table: TimedTable
     from_loop_s: float
+
+
+BEFORE_DEMO_S = 5.0
+"""Seconds to plan a demo pass, before the antenna sets off to where it rises."""
+
+
+def demo_program(zone: str, times: int, antenna: Antenna | None, now_s: float) -> Program:
+    """The demo pass over the continent of this time zone. It rises when the antenna can be there. Raises CannotFly."""
+    if antenna is None:
+        raise CannotFly("the antenna's angles are not known")
+    found = demo_pass(zone)
+    rows = found.rows(times)
+    table = TimedTable(found.named(times), rows, tuple(range(1, len(rows) + 1)))
+    if fault := hindrance(table, rows, antenna.mount):
+        raise CannotFly(f"{table.name}, {fault}")
+    travel, places = Travel(antenna), antenna.mount.places(*rows[0][1:])
+    way_s = max(travel.least_s(antenna.stands_deg, place[:2]) for place in places)
+    return Program(table, now_s + BEFORE_DEMO_S + way_s)
 
 
 def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:

@@ -20,7 +20,7 @@ from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 from rotator.tracking.ports import TRACK, Box, Finder, Planner
-from rotator.tracking.program import CannotFly, Program
+from rotator.tracking.program import CannotFly, Program, demo_program
 from rotator.tracking.system_clock import ASSUMED_ERROR_S
 from rotator.tracking.tracked import NOTHING, Flown, Request, Tracked, ends_tracking
 
@@ -131,6 +131,15 @@ class Tracker:
         if table.utc and not self.clock_trusted():
             return CLOCK_UNSURE
         self._begin(Request(table.name, Program(table, self._box.status().at_s)), follows=self._tracked.follows)
+        return ""
+
+    def demo(self, zone: str, times: int) -> str:
+        """Begin to fly the demo pass over the continent of this time zone. Returns why not; empty: it flies."""
+        try:
+            program = demo_program(zone, times, self._box.antenna(), self._box.status().at_s)
+        except CannotFly as reason:
+            return str(reason)
+        self._begin(Request(program.table.name, program), follows=self._tracked.follows)
         return ""
 
     def follow_plan(self) -> str:

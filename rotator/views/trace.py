@@ -40,5 +40,10 @@ def errors_deg(trace: Sequence[Sample]) -> list[float]:
     return sorted(sample.error_deg for sample in trace if sample.t >= SETTLING_S and sample.target_el >= 0)
 
 
+def p95(rising: Sequence[float]) -> float:
+    """The value that one in twenty exceeds. `rising`: the smallest first."""
+    return rising[min(len(rising) - 1, math.ceil(0.95 * len(rising)) - 1)]
+
+
 def rms(values: Sequence[float]) -> float:
     return math.sqrt(sum(value * value for value in values) / len(values))

@@ -18,7 +18,7 @@ from typing_extensions import TypedDict
 from rotator import __version__
 from rotator.protocols.methods import Method
 from rotator.protocols.status_object import AXIS_FIELDS, FAULT_FIELDS, FIELDS, FLOWN_FIELDS, Field
-from rotator.web.route import FREE, JSON, MOST_BODY, PAIRED, REFUSED, Handler, Route, post, refusals
+from rotator.web.route import FREE, JSON, MOST_BODY, PAIRED, READING, REFUSED, Handler, Route, post, refusals
 from rotator.web.scene import Picture
 from rotator.web.schema import Body, Schema, component, in_address, schema_of, the
 
@@ -153,7 +153,7 @@ def _text(text: str) -> str:
 
 ABOUT = (
     "What the page does, for programs. An order needs a token: `rotator pair --token NAME` at the box prints one; send "
-    "it as `Authorization: Bearer TOKEN`. `stop` needs none. Reading needs one only where the file says "
+    "it as `Authorization: Bearer TOKEN`. `stop` and `demo` need none. Reading needs one only where the file says "
     '`[page] reading = "paired"`. A value that is not described is refused with a sentence. The console and MQTT have '
     "the same orders, with the same names and values."
 )
@@ -227,7 +227,7 @@ def order(method: Method, serve: Handler) -> Route:
     example = {value.name: value.example for value in method.values}
     values = {value.name: value.schema() for value in method.values}
     body = {**_object(values), "additionalProperties": False, "examples": [example]} if values else None
-    access = FREE if method.free else PAIRED
+    access = FREE if method.free else READING if method.harmless else PAIRED
     headers = {"resume": SINCE, "stop": ONCE}.get(method.name, {})
     more = refusals(412) if method.name == "resume" else {}
     takes: dict[str, Any] = {"most_body": 0 if method.free else MOST_BODY, "headers": headers, "more": more}

@@ -33,6 +33,10 @@ class Record:
     clicks_s: dict[str, list[float]]
     relay_starts: int | None
     """None: no relay starts the motors."""
+    motor_s: float = 0.0
+    """How long motors ran, the two added."""
+    faults: tuple[str, ...] = ()
+    """Each fault that stopped an axis in it, in a few words."""
 
     @property
     def errors_deg(self) -> list[float]:
@@ -53,9 +57,14 @@ class _Running:
     clicks_s: dict[str, list[float]] = field(default_factory=lambda: {axis.value: [] for axis in Axis})
     relays: bool = False
     starts: dict[str, int] = field(default_factory=dict)
+    motor_s: float = 0.0
+    seen_s: float = 0.0
+    faults: dict[str, None] = field(default_factory=dict)
 
     def see(self, status: Status) -> None:
         t_s = status.at_s - self.begin_s
+        self.motor_s += (t_s - self.seen_s) * sum(status.axis(axis).drive != 0 for axis in Axis)
+        self.seen_s = t_s
         for axis in Axis:
             self._count(axis, status.axis(axis), t_s)
         if self.trace and t_s < self.trace[-1].t + self.every_s:
@@ -100,6 +109,9 @@ class Recorder:
     def look(self, status: Status) -> None:
         flown, order = status.flown, self._ordered
         up = flown is not None and flown.begin_s <= status.at_s
+        if self._running is not None:
+            # A fault may end the flight: it belongs to the flight that it has ended.
+            self._running.faults |= {f"{fault.axis.value}: {fault.name}": None for fault in status.faults}
         if self._running is not None and (flown is None or not up or flown.name != self._running.name):
             self.end()
         if flown is None or not up or order is None or order.name != flown.name or status.at_s < order.path[0][0]:
@@ -122,6 +134,8 @@ class Recorder:
             tuple(running.trace),
             running.clicks_s,
             sum(map(len, running.clicks_s.values())) if running.relays else None,
+            running.motor_s,
+            tuple(running.faults),
         )
         if lasted_s >= LEAST_S and record.errors_deg:
             self.over(record)

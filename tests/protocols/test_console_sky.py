@@ -26,6 +26,10 @@ class Sky:
         self.heard.append(f"{table.name}: {table.rows} by lines {table.lines}")
         return ""
 
+    def demo(self, zone: str, times: int) -> str:
+        self.heard.append(f"demo {zone} {times}")
+        return ""
+
     def follow_plan(self) -> str:
         self.heard.append("plan")
         return ""

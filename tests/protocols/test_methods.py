@@ -29,6 +29,7 @@ SAME = [
     (b"mode manual", "mode", {"mode": "manual"}),
     (b"pulse up", "pulse", {"turn": "up"}),
     (b"track iss", "track", {"target": " iss "}),
+    (b"demo Europe/Prague life", "demo", {"zone": "Europe/Prague", "speed": "life"}),
     (b"home azimuth", "home", {"axis": "azimuth"}),
     (b"nudge azimuth -1.5", "nudge", {"axis": "azimuth", "offset_deg": -1.5}),
     (b"confirm elevation 12", "confirm", {"axis": "elevation", "angle_deg": 12}),
@@ -47,6 +48,10 @@ def test_console_and_page_have_the_same_methods() -> None:
 
 def test_stop_alone_needs_no_pairing() -> None:
     assert [method.name for method in METHODS if method.free] == ["stop"]
+
+
+def test_what_needs_no_pairing_but_a_simulated_rotor() -> None:
+    assert [method.name for method in METHODS if method.harmless] == ["demo"]
 
 
 PLAIN = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=20) | st.lists(st.integers())

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
 
-from rotator.store.flown import MOST, FlownPass, FlownPasses, picture_name
+from rotator.store.flown import MOST, MOST_FIGURES, FlownPass, FlownPasses, picture_name
 
 EVENING_S = 1_740_787_200.0
 
@@ -32,17 +32,30 @@ def test_the_name_of_a_picture(name: str, file: str) -> None:
 
 
 def test_the_latest_are_kept_and_outlive_the_program(tmp_path: Path) -> None:
+    """Of the last weeks the figures, of the last passes picture and table too."""
     passes = FlownPasses(tmp_path)
     (tmp_path / "flown").mkdir()
-    (tmp_path / "flown" / "mine.svg").write_text("a person's own")
-    for index in range(MOST + 3):
-        passes.keep(flown(index), f"<svg>{index}</svg>")
+    for kind in ("svg", "csv"):
+        (tmp_path / "flown" / f"mine.{kind}").write_text("a person's own")
+    last = MOST_FIGURES + 2
+    for index in range(last + 1):
+        passes.keep(flown(index), f"<svg>{index}</svg>", f"t\n{index}\n")
     again = FlownPasses(tmp_path)
-    assert list(again.passes) == [flown(index) for index in range(MOST + 2, 2, -1)]
-    assert len(list((tmp_path / "flown").glob("2*.svg"))) == MOST
-    assert (tmp_path / "flown" / "mine.svg").exists()
-    assert again.picture(flown(MOST).file) == f"<svg>{MOST}</svg>"
-    assert again.picture(flown(0).file) is None
+    assert list(again.passes) == [flown(index) for index in range(last, 2, -1)]
+    for kind in ("svg", "csv"):
+        assert len(list((tmp_path / "flown").glob(f"2*.{kind}"))) == MOST
+        assert (tmp_path / "flown" / f"mine.{kind}").exists()
+    assert again.picture(flown(last).file) == f"<svg>{last}</svg>"
+    assert again.table(flown(last).file) == f"t\n{last}\n"
+    assert again.picture(flown(3).file) is again.table(flown(3).file) is None
+
+
+def test_the_figures_of_the_longest_list_fit_into_its_file(tmp_path: Path) -> None:
+    passes = FlownPasses(tmp_path)
+    for index in range(MOST_FIGURES):
+        figures = replace(flown(index), p95_deg=179.99, max_el_deg=89.9, motor_s=1799.9, faults=("x" * 40,) * 2)
+        passes.keep(replace(figures, name="☃" * 40), "<svg/>")
+    assert FlownPasses(tmp_path).passes == passes.passes
 
 
 @pytest.mark.parametrize("file", ["../flown.json", "mine.svg", "", "/etc/passwd"])
@@ -80,6 +93,9 @@ def listed(folder: Path, **figures: object) -> FlownPass | None:
         ("rms_deg", 0.0, 180.0),
         ("max_deg", 0.0, 180.0),
         ("relay_starts", 0, 1_000_000),
+        ("p95_deg", 0.0, 180.0),
+        ("max_el_deg", 0.0, 90.0),
+        ("motor_s", 0.0, 1_000_000.0),
     ],
 )
 def test_figures_of_no_pass_begin_the_list_anew(tmp_path: Path, key: str, least: float, most: float) -> None:
@@ -97,10 +113,18 @@ def test_a_rotor_without_relays_has_no_relay_starts(tmp_path: Path) -> None:
     assert (kept.relay_starts, kept.name) == (None, "x" * 40)
 
 
+def test_the_list_of_an_earlier_program_lacks_some_figures(tmp_path: Path) -> None:
+    row = {key: value for key, value in asdict(flown(0)).items() if value is not None}
+    (tmp_path / "flown.json").write_text(json.dumps({"format": "rotator flown 1", "passes": [row]}))
+    assert FlownPasses(tmp_path).passes == (flown(0),)
+
+
 def test_a_list_that_is_too_long_is_cut(tmp_path: Path) -> None:
     row = asdict(flown(0))
-    (tmp_path / "flown.json").write_text(json.dumps({"format": "rotator flown 1", "passes": [row] * 31}))
-    assert len(FlownPasses(tmp_path).passes) == 30
+    (tmp_path / "flown.json").write_text(
+        json.dumps({"format": "rotator flown 1", "passes": [row] * (MOST_FIGURES + 1)})
+    )
+    assert len(FlownPasses(tmp_path).passes) == MOST_FIGURES
 
 
 def test_a_pass_flown_again_replaces_its_picture(tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ NO_TOKEN, MAY_READ, TOKEN = 0, 3, 2
 FOR_ALL = {"get me", "get openapi.json", "post pair/begin", "post pair", "post stop"}
 FOR_READERS = {
     *("get status", "get box", "get past", "get path", "get live", "get passes", "get next", "get followed"),
-    *("get elements", "get flown", "get flown/picture", "get doctor"),
+    *("get elements", "get flown", "get flown/picture", "get flown/table", "get doctor", "post demo"),
 }
 """All else needs a token: who orders, changes, or sees names, bytes and the file."""
 
@@ -52,7 +52,7 @@ async def asked(box: Box, way: str, path: str, **more: Any) -> tuple[int, str, b
 @pytest.mark.parametrize("more", ["", FOLLOWS], ids=["bare", "with a sky"])
 async def test_every_answer_is_as_described(page_box: Start, file: Path, tmp_path: Path, more: str) -> None:
     flown = FlownPass(picture_name("ISS", 1.7e9), "ISS", 1.7e9, 1.7e9 + 600, 0.4, 1.2, None)
-    FlownPasses(tmp_path).keep(flown, "<svg/>")
+    FlownPasses(tmp_path).keep(flown, "<svg/>", "utc,t\n")
     async with page_box(more, file=file) as box:
         await box.pair()
         if more:
@@ -60,7 +60,7 @@ async def test_every_answer_is_as_described(page_box: Start, file: Path, tmp_pat
             assert (await box.post("track", {"target": "Moon"}))[0] == 200
         told = await description(box)
         for path, one in told.routes("get"):
-            query = {"file": flown.file} if path == "/api/flown/picture" else {}
+            query = {"file": flown.file} if path.startswith("/api/flown/") else {}
             found = await asked(box, "GET", path, params=query)
             is_socket = "101" in one["responses"]
             computed = "202" in one["responses"] and not more

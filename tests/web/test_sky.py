@@ -124,10 +124,11 @@ async def test_a_file_that_never_ends_is_cut_off(page_box: Start, tmp_path: Path
 
 
 async def test_a_picture_that_is_not_there_is_no_file_of_the_box(box: Box) -> None:
-    assert await box.get("flown") == (200, {"flown": []})
+    assert await box.get("flown") == (200, {"flown": [], "pictures": 30})
     for file in ("..%2Fstate.json", "state.json", "%2Fetc%2Fpasswd", "20250301-000000-iss.svg"):
-        async with box.http.get(f"{box.url}/api/flown/picture?file={file}") as answer:
-            assert answer.status == 404
+        for kind in ("picture", "table"):
+            async with box.http.get(f"{box.url}/api/flown/{kind}?file={file}") as answer:
+                assert answer.status == 404
 
 
 NOON_S = datetime(2026, 3, 1, 12, tzinfo=UTC).timestamp()

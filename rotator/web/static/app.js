@@ -1,6 +1,7 @@
 // The page: what is shown where. The box itself is in box.js, each part in a file of its own, STOP in stop.js.
 import { Live, post, read } from "/box.js";
 import { Chart } from "/chart.js";
+import { Demo } from "/demo.js";
 import { AzimuthDial, ElevationDial } from "/dials.js";
 import { Errands } from "/errands.js";
 import { Asks, directionOf, JogPad, Target, ThereFromSky, Track } from "/hand.js";
@@ -47,7 +48,7 @@ function Antenna({ station, now, hello, fresh, say }) {
   const paired = hello.paired;
   const { azimuth, elevation } = now.status;
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
-    <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /></div>
+    <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /><${Demo} now=${now} say=${say} /></div>
     <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${setDraft} />
       ${paired && html`<${ThereFromSky} station=${station} draft=${draft} say=${say} />`}</div>
     <section class="panel hand" aria-label="By hand">
