@@ -32,9 +32,8 @@ def examine_box(path: Path | None, *, as_json: bool) -> int:
     machine = this_machine()
     if path is None and machine.at(str(INSTALLED)).exists():
         path = machine.at(str(INSTALLED))
-    here = Path(HERE)
-    if path is None and here.exists():
-        click.echo(f"{HERE} is here: `rotator doctor --config {HERE}` checks that one.\n", err=True)
+    if path is None and Path(HERE).exists():
+        path = Path(HERE)
     # Asked once: a box that does not answer takes its time each time.
     examination = examine(replace(machine, ask_box=cache(partial(_ask_box, path))), path)
     if as_json:

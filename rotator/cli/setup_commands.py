@@ -13,11 +13,10 @@ from rotator.cli.utc import utc_time
 
 
 def _run(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
+    path = path or (Path(HERE) if Path(HERE).exists() else None)
     # Before the program is loaded: that takes seconds on a small Pi.
     if "list" not in faults:
         click.echo(f"rotator {__version__} starts with {path or 'a simulated G-5500'}")
-        if path is None and Path(HERE).exists():
-            click.echo(f"{HERE} is here: `rotator run --config {HERE}` uses it")
     from rotator.cli.run import run_box  # noqa: PLC0415
 
     run_box(path, faults, plain=plain)
@@ -29,8 +28,9 @@ RUN = command(
     CONFIG,
     FAULT,
     PLAIN,
-    says="""Run the box. Without a file: a simulated G-5500.
+    says="""Run the box.
 
+    Its file is --config, or else rotator.toml if this folder has one; without either it is a simulated G-5500.
     It prints where programs connect. Ctrl-C ends it, with every relay off.
     """,
     examples=["rotator run", "rotator run --config station.toml", "rotator run --fault azimuth-pot-open@20"],

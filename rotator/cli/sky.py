@@ -18,6 +18,7 @@ from rich.text import Text
 
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.cli import sky_plan
+from rotator.cli.commands import HERE
 from rotator.cli.failed import CommandFailed
 from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
@@ -131,7 +132,7 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
 
 def _sky(path: Path | None) -> tuple[Config, Site, Catalogue]:
     """Raises CommandFailed without a place. Says which files could not be read."""
-    file = path or (INSTALLED if INSTALLED.exists() else None)
+    file = path or next((each for each in (INSTALLED, Path(HERE)) if each.exists()), None)
     config = load(file)
     site = build_site(config.station)
     if site is None:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,15 @@ class FormMistake:
 
 
 @dataclass(frozen=True, slots=True)
+class KeyChange:
+    """One key with its two values, or a whole table of a list such as a link. None: it is not in the file."""
+
+    place: Place
+    before: Any
+    after: Any
+
+
+@dataclass(frozen=True, slots=True)
 class Settings:
     """What a file says now. `config`: None where it has a mistake."""
 
@@ -59,6 +69,31 @@ class Proposal:
         """The lines that change, with two around them. Empty: nothing changes."""
         rows = difflib.unified_diff(self.before.splitlines(), self.after.splitlines(), n=2, lineterm="")
         return [row for row in rows if not row.startswith(("---", "+++"))]
+
+    @property
+    def changes(self) -> list[KeyChange]:
+        """The keys whose values differ. Empty: at most remarks do."""
+        with suppress(ValueError):  # a text that is no TOML has its mistake
+            return list(_differences((), migrations.values(self.before), migrations.values(self.after)))
+        return []
+
+
+def _differences(place: Place, before: Any, after: Any) -> Iterator[KeyChange]:
+    match before, after:
+        case (dict() | None, dict() | None):
+            for key in {**(before or {}), **(after or {})}:
+                yield from _differences((*place, key), (before or {}).get(key), (after or {}).get(key))
+        case (None, [dict(), *_]) | ([dict(), *_], None) | ([dict(), *_], [dict(), *_]):
+            old, new = before or [], after or []
+            if len(old) == len(new):
+                for at, pair in enumerate(zip(old, new, strict=True)):
+                    yield from _differences((*place, at), *pair)
+                return
+            # One that comes or goes moves those behind it: those that stay as they are have not changed.
+            yield from (KeyChange((*place, at), each, None) for at, each in enumerate(old) if each not in new)
+            yield from (KeyChange((*place, at), None, each) for at, each in enumerate(new) if each not in old)
+        case _ if before != after:
+            yield KeyChange(place, before, after)
 
 
 def digest(text: str) -> str:

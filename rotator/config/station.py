@@ -17,7 +17,7 @@ from rotator.config.table import Table
 
 def no_place(file: Path | None) -> str:
     """What to write into this file; None: the box runs without one, or its name is not known here."""
-    where = f"into {file}" if file else "into its file (`rotator config > station.toml` makes one; then --config)"
+    where = f"into {file}" if file else "into its file. Setup on the page asks for it, and makes a file"
     return f'the box does not know where it stands: write [station] and below it locator = "JO62qm" {where}'
 
 

@@ -63,6 +63,8 @@ class BackupApi:
 
     async def _save(self, _request: web.Request) -> web.StreamResponse:
         path = self._file.path
+        if self._file.file is None:
+            raise RefusedError("the box runs without a file, so there is nothing to keep yet: Setup makes one")
         try:
             packed = await asyncio.to_thread(pack, path, self._config, self._utc())
         except OSError as fault:
@@ -84,6 +86,8 @@ class BackupApi:
             raise WrongValuesError("?stop= must be true or false")
         self._file.may_stop({"stop": stop == "true"})
         try:
+            await asyncio.to_thread(check, data)
+            await self._file.make()
             await asyncio.to_thread(stage, path, data)
         except BackupError as reason:
             raise RefusedError(str(reason), 422) from None

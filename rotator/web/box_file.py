@@ -31,10 +31,6 @@ OWN = Path("rotator.toml")
 """The file that a box without one gets, in the folder where it was started."""
 ANSWERED_S = 0.3
 """Seconds until the answer is sent. Then the box ends, and the page with it."""
-NO_FILE = (
-    "the box runs without a file, so there is nothing to change: make one on the page, in Setup; or "
-    "`rotator config --to rotator.toml` writes one, `rotator run --config rotator.toml` runs it"
-)
 MOVES = "the antenna moves, and the new start stops it: send stop = true"
 
 
@@ -62,32 +58,44 @@ class BoxFile:
 
     @property
     def path(self) -> Path:
-        if self.file is None:
-            raise RefusedError(NO_FILE)
-        return self.file
+        """Of a box without a file: where it gets one."""
+        return self.file or OWN.absolute()
+
+    @property
+    def is_there(self) -> bool:
+        """Also of a box that was started without it."""
+        return self.file is not None or os.path.lexists(self.path)
+
+    @property
+    def begins(self) -> Path:
+        """The file that a change starts from: where there is none, the shipped one with which the box runs."""
+        return self.path if self.is_there else SIMULATED_FILE
 
     async def settings(self) -> Settings:
-        """Of a box without a file: those of the shipped one, with which it runs."""
         with _refusing():
-            return await asyncio.to_thread(settings, self.file or SIMULATED_FILE)
+            return await asyncio.to_thread(settings, self.begins)
 
     async def make(self) -> Path:
-        """The box is to have a file after its new start: the one that is there already, else the shipped one."""
-        if self.file is not None:
-            raise RefusedError(f"the box has a file: {self.file}")
+        """The box has a file after its new start: its own, else the one that is there, else the shipped one."""
         with _refusing():
-            await asyncio.to_thread(lambda: load(OWN) if os.path.lexists(OWN) else write_new(OWN, shipped()))
-        self.anew.file = OWN.absolute()
-        return self.anew.file
+            if self.file is None:
+                await asyncio.to_thread(lambda: load(self.path) if self.is_there else write_new(self.path, shipped()))
+        self.anew.file = self.path
+        return self.path
 
     async def propose(self, begun: str, make: Callable[[str], str]) -> Proposal:
         """`begun`: digest of the text that the change starts from. `make` returns the new text for it."""
         with _refusing():
-            return await asyncio.to_thread(propose, self.path, begun, make)
+            return await asyncio.to_thread(propose, self.begins, begun, make)
 
     async def write(self, proposal: Proposal) -> None:
+        """A box without a file runs with this one after its new start."""
         with _refusing():
-            await asyncio.to_thread(write, self.path, proposal)
+            if self.is_there:
+                await asyncio.to_thread(write, self.path, proposal)
+            else:
+                await asyncio.to_thread(write_new, self.path, proposal.after)
+        self.anew.file = self.path
 
     def may_stop(self, sent: MayStop) -> None:
         """Whether the person agrees that the antenna stops."""

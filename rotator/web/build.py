@@ -76,7 +76,8 @@ def build_page(
     """
     host, port = address(config.page.listen)
     lines, wire_log = LogLines(), WireLog(tap)
-    scene = Scene(lambda: loop.status, lcd, wires, pairings.named, lambda: tracking.tracker.state, utc=time.time)
+    tracks, known = (lambda: tracking.tracker.state), tracking.clock_is_known
+    scene = Scene(lambda: loop.status, lcd, wires, pairings.named, tracks, utc=time.time, clock_is_known=known)
     recorder = Recorder()
 
     def hear(_source: Source, order: Order) -> None:

@@ -81,6 +81,7 @@ class Picture(TypedDict):
     path: Annotated[str, the("empty, or the key of the flight that /api/path has")]
     stops: Annotated[int, the("how often a person has stopped it since the program began")]
     utc_s: Annotated[float, the("the box's clock, in seconds since 1970")]
+    clock_known: Annotated[bool, the("it is right, as the system or a person says")]
     lamps: Annotated[_Lamps, the("of the relays")]
     lcd: Annotated[list[str], the("the rows of the display")]
     mover: Annotated[str, the("whose orders move the antenna, by name")]
@@ -96,7 +97,7 @@ class Scene:
     """`status` gives the latest status. `lcd` gives the rows of the display, with a code covered.
 
     `named`: the name of a paired browser by its number. `tracks`: as `Tracker.state`.
-    `utc`: seconds since 1970 by the box's clock.
+    `utc`: seconds since 1970 by the box's clock, and whether that is right.
     """
 
     def __init__(
@@ -108,6 +109,7 @@ class Scene:
         tracks: Callable[[], str],
         *,
         utc: Callable[[], float],
+        clock_is_known: Callable[[], bool],
     ) -> None:
         self._status = status
         self._lcd = lcd
@@ -115,6 +117,7 @@ class Scene:
         self._named = named
         self._tracks = tracks
         self._utc = utc
+        self._clock_is_known = clock_is_known
         self.past = Past(status)
         self._path = FlightPath("", "", [])
         self._counting = threading.Lock()
@@ -163,6 +166,7 @@ class Scene:
             "path": self._path.key if flown and flown.name == self._path.name else "",
             "stops": self.stops,
             "utc_s": round(self._utc(), 2),
+            "clock_known": self._clock_is_known(),
             "lamps": {
                 "cw": _lamp(status.azimuth, Direction.PLUS),
                 "ccw": _lamp(status.azimuth, Direction.MINUS),

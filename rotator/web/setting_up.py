@@ -143,7 +143,7 @@ class SettingUpApi:
         }
 
     async def _calibrate(self, request: web.Request, sent: _Calibrate) -> Begun:
-        axis, file = Axis(sent["axis"]), self._file.path
+        axis = Axis(sent["axis"])
         from rotator.calibrating.rig import axis_guide  # noqa: PLC0415 - the page of a normal run does without it
 
         try:
@@ -151,6 +151,7 @@ class SettingUpApi:
         except HardwareError as reason:
             raise RefusedError(str(reason)) from None
         self._file.may_stop(sent)
+        file = await self._file.make()
         name = paired(request).name
         log.warning("page: %s calibrates the %s of %s: the box starts anew for that", name, axis.value, file)
         return self._file.begin_anew(axis)

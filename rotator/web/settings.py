@@ -73,7 +73,16 @@ class _Mistake(TypedDict):
     places: Annotated[Sequence[Sequence[str | int]], the("the keys that it is about")]
 
 
-_Shown = TypedDict("_Shown", {"diff": Annotated[list[str], the("the lines that change")], "mistakes": list[_Mistake]})
+class _KeyChange(TypedDict):
+    place: Annotated[Sequence[str | int], the("a table and its key, or a whole table of a list")]
+    before: Annotated[Any, the("null: it is not in the file")]
+    after: Annotated[Any, the("null: it is not in the file")]
+
+
+class _Shown(TypedDict):
+    changes: Annotated[list[_KeyChange], the("the keys whose values change")]
+    diff: Annotated[list[str], the("the lines that change")]
+    mistakes: list[_Mistake]
 
 
 class _Wrong(_Shown):
@@ -81,7 +90,9 @@ class _Wrong(_Shown):
 
 
 class _Settings(TypedDict):
-    file: Annotated[str, the("its path; empty: there is none, see /api/settings/file")]
+    file: Annotated[str, the("its path, also of one that the first change makes")]
+    used: Annotated[bool, the("the box runs with it; false: with the shipped one, and has it after a change")]
+    there: Annotated[bool, the("false: a change makes it")]
     run: Annotated[str, the("after each start another one")]
     digest: Annotated[str, the("of its text")]
     values: Annotated[dict[str, Any], the("what it says")]
@@ -120,7 +131,8 @@ class SettingsApi:
         self._form: asyncio.Task[list[dict[str, Any]]] | None = None
 
     def routes(self) -> Sequence[Route]:
-        restart, made = "Stop, and start anew", "Make a file for a box that runs without one, and start anew with it"
+        restart = "Stop, and start anew"
+        made = "Start anew with a file: of a box that runs without one the one that is there, else the shipped one"
         checked, written = (
             "What a change of the file would be, and its mistakes",
             "Write a change, and start anew with it",
@@ -141,7 +153,9 @@ class SettingsApi:
     async def _read(self, _request: web.Request) -> _Settings:
         found = await self._file.settings()
         return {
-            "file": str(self._file.file or ""),
+            "file": str(self._file.path),
+            "used": self._file.file is not None,
+            "there": self._file.is_there,
             "run": self._file.run,
             "digest": found.digest,
             "values": found.values,
@@ -208,4 +222,7 @@ def _changes(sent: Sequence[_Change]) -> list[Change]:
 
 def _shown(proposal: Proposal) -> _Shown:
     mistakes: list[_Mistake] = [{"text": each.text, "places": each.places} for each in proposal.mistakes]
-    return {"diff": proposal.diff, "mistakes": mistakes}
+    changes: list[_KeyChange] = [
+        {"place": each.place, "before": each.before, "after": each.after} for each in proposal.changes
+    ]
+    return {"changes": changes, "diff": proposal.diff, "mistakes": mistakes}

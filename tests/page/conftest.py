@@ -73,10 +73,12 @@ class Station:
     folder: Path
     url: str
     process: subprocess.Popen[bytes]
+    named: tuple[str, ...] = ("--config", "r.toml")
+    """How its commands name its file; empty: it was started without one."""
 
     def tell(self, *words: str) -> str:
         """`rotator tell WORDS`, as a person at the box types it."""
-        command = (sys.executable, "-m", "rotator", "tell", "--config", str(self.folder / "r.toml"), *words)
+        command = (sys.executable, "-m", "rotator", "tell", *self.named, *words)
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=True)
         return done.stdout.strip()
 

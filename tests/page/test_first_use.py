@@ -79,7 +79,7 @@ class Finger:
         self._press(self.page.get_by_role("button", name=name, exact=exact).first)
 
     def view(self, name: str) -> None:
-        self._press(self.page.get_by_role("link", name=name))
+        self._press(self.page.get_by_role("link", name=name, exact=True))
 
     def step(self, title: str) -> None:
         self._press(self.page.locator(".step > summary", has_text=re.compile(rf"\d\. {title}")))

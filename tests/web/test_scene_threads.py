@@ -19,7 +19,7 @@ STOP = Stop(latch=True)
 
 
 def new() -> Scene:
-    return Scene(lambda: STATUS, list, [], lambda _number: "", lambda: "off", utc=lambda: 0.0)
+    return Scene(lambda: STATUS, list, [], lambda _number: "", lambda: "off", utc=lambda: 0.0, clock_is_known=bool)
 
 
 def fly(name: str) -> Fly:

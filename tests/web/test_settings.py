@@ -35,6 +35,7 @@ async def test_a_change_is_shown_then_written_with_the_old_file_beside_it(box: B
     assert status == 200
     assert told["mistakes"] == []
     assert '+locator = "JN58td" # my garden' in told["diff"]
+    assert told["changes"] == [{"place": ["station", "locator"], "before": "JO62qm", "after": "JN58td"}]
     assert file.read_text() == before, "a check writes nothing"
     assert (await box.post("settings/write", wanted))[0] == 200
     assert load(file).station.locator == "JN58td"
@@ -119,18 +120,30 @@ async def test_a_box_without_a_file_gets_one(page_box: Start, tmp_path: Path, mo
         assert (await box.post("settings/file"))[0] == 401
         await box.pair()
         _, told = await box.get("settings")
-        assert told["file"] == ""
+        assert (told["file"], told["used"], told["there"]) == (str(own), False, False)
         assert told["in_force"]["rotor"]["hardware"] == "sim"
-        for path, body in (
-            ("settings/write", {"digest": told["digest"], "changes": []}),
-            ("calibrate", {"axis": "azimuth"}),
-        ):
-            status, refused = await box.post(path, body)
-            assert status == 409
-            assert "rotator config --to rotator.toml" in refused["error"]
+        assert not own.exists()
         assert await box.post("settings/file") == (200, {"ok": True, "run": told["run"]})
         await box.until(lambda: box.anew.asked)
         assert (box.anew.file, own.read_text()) == (own, shipped())
+
+
+@pytest.mark.parametrize(
+    ("path", "more"),
+    [("settings/write", {"changes": [change(["station", "locator"], "JO62qm")]}), ("calibrate", {"axis": "azimuth"})],
+)
+async def test_what_needs_a_file_makes_it(
+    page_box: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str, more: dict[str, object]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    async with page_box() as box:
+        await box.pair()
+        _, told = await box.get("settings")
+        begun = {"digest": told["digest"]} if "changes" in more else {}
+        assert (await box.post(path, {**begun, **more}))[0] == 200
+        await box.until(lambda: box.anew.asked)
+        assert box.anew.file == tmp_path / "rotator.toml"
+        assert load(box.anew.file).station.locator == ("JO62qm" if begun else None)
 
 
 @pytest.mark.parametrize(

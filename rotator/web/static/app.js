@@ -73,7 +73,7 @@ const VIEWS = [["", "Antenna"], ["sky", "Sky"], ["pass", "Pass"], ["setup", "Set
 
 /** The view that the address names; of one that is not known the first. */
 function shownView() {
-  const hash = location.hash.slice(1);
+  const hash = location.hash.slice(1).split("/")[0];
   return helps(hash) || VIEWS.some(([each]) => each === hash) ? hash : "";
 }
 
@@ -102,7 +102,7 @@ function Page() {
     ${now && view === "pass" && html`<${PassMode} now=${now} station=${station} hello=${hello} fresh=${fresh} say=${say} />`}
     ${now && helps(view) && html`<${Help} view=${view} now=${now} hello=${hello} onPaired=${() => live.connect()} />`}
     ${now && (view === "setup" || view === "paired") && html`<main>${!hello.paired ? html`<${Pair} onPaired=${() => live.connect()} />`
-      : view === "setup" ? html`<${Setup} now=${now} hello=${hello} say=${say} />`
+      : view === "setup" ? html`<${Setup} now=${now} hello=${hello} station=${station} say=${say} />`
       : html`<${Paired} hello=${hello} onChange=${() => live.connect()} />`}</main>`}
     ${!now && html`<main class="wait">${locked ? html`<${Pair} locked onPaired=${() => live.connect()} />` : html`<p>Looking for the box …</p>`}</main>`}`;
 }

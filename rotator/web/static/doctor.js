@@ -1,6 +1,6 @@
 // The doctor: each check with its mark, and what to do. The box examines itself in a process of its own.
 import { read } from "/box.js";
-import { html, useEffect, useRef, useState } from "/ui.js";
+import { html, Said, useEffect, useRef, useState } from "/ui.js";
 
 const COMPUTES_MS = 700, TICK_MS = 5000;
 const MARKS = { wrong: ["✗", "to repair"], warning: ["!", "warning"], good: ["✓", "good"], skipped: ["–", "not checked"] };
@@ -45,7 +45,7 @@ export function Doctor() {
     <p class="verdict"><span role="status">${busy ? "The box examines itself …" : told ? verdict(checks) : ""}</span>
       ${told && !busy && html` <small>${ago((performance.now() - told.seen) / 1000)}</small>`}</p>
     <p><button type="button" disabled=${busy} onClick=${ask}>Check again</button></p>
-    <p class="said" role="status">${said}</p>
+    <${Said} text=${said} />
     <ul>${checks.map((check, at) => {
       const mark = markOf(check), [sign, meaning] = MARKS[mark];
       return html`<li class=${mark}><b aria-hidden="true">${sign}</b><span class="only-read">${meaning}:</span>

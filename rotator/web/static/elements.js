@@ -1,6 +1,6 @@
 // The elements of satellites: which files there are and how old, what is fetched, and a file that is sent to the box.
 import { post, read, send } from "/box.js";
-import { act, html, useEvery, useState } from "/ui.js";
+import { act, html, Said, useEvery, useState } from "/ui.js";
 
 const EVERY_MS = 10_000, READ_MS = 1500, MOST_BYTES = 2_000_000;
 
@@ -36,5 +36,5 @@ export function Elements({ paired, changed }) {
       ${told.fetch.map((one) => html`<${Fetched} one=${one} />`)}</ul>
     ${told.faults.length > 0 && html`<ul class="notes">${told.faults.map((fault) => html`<li>${fault}</li>`)}</ul>`}
     ${paired && html`<label class="file">Send a file: TLE, or OMM as JSON or CSV<input type="file" disabled=${sends} onChange=${take} accept=".tle,.txt,.json,.csv" /></label>`}
-    <p role="status">${sends ? "It is sent and checked …" : kept}</p><p class="said" role="alert">${said}</p></section>`;
+    <p role="status">${sends ? "It is sent and checked …" : kept}</p><${Said} text=${said} /></section>`;
 }

@@ -1,7 +1,7 @@
 // Files to keep: a backup, the way back from one, and what another person needs to see what is wrong.
-import { upload } from "/box.js";
+import { read, upload } from "/box.js";
 import { Diff, back } from "/settings.js";
-import { act, html, useState } from "/ui.js";
+import { act, html, Said, useEffect, useState } from "/ui.js";
 
 const day = (text) => (Number.isNaN(Date.parse(text)) ? text : new Date(text).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" }));
 
@@ -36,15 +36,17 @@ function Restore() {
       <button type="button" class="go" onClick=${restore}>Restore it</button>
       <button type="button" onClick=${() => setShown(null)}>No</button></div>`}
     <p role="status">${done}</p>
-    <p class="said" role="status">${said}</p>`;
+    <${Said} text=${said} />`;
 }
 
 export function Files() {
+  const [used, setUsed] = useState(true);
+  useEffect(() => void read("settings").then((told) => setUsed(told.used), () => {}), []);
   return html`<section class="log files"><h2>Files</h2>
     <h3>Backup</h3>
     <p>The configuration and what the box has learnt, in one file. It may hold passwords: keep it to yourself. Not in it: where an axis
       that counts stands, what is doubted of relays, the paired browsers, and fetched elements.</p>
-    <p><a class="button" href="/api/backup" download>Save a backup</a></p>
+    <p>${used ? html`<a class="button" href="/api/backup" download>Save a backup</a>` : html`This box runs without a file, so there is nothing to keep yet: <a href="#setup">Setup</a> makes one.`}</p>
     <${Restore} />
     <h3>Diagnostics</h3>
     <p>For a person who is to help you: version, configuration, state, log, doctor and wires. Passwords, tokens, names of browsers and

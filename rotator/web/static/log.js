@@ -1,6 +1,6 @@
 // The log of the box: what has happened, the latest first, with a filter; what is shown can be copied and saved.
 import { read } from "/box.js";
-import { html, useEvery, useState } from "/ui.js";
+import { html, Said, useEvery, useState } from "/ui.js";
 
 const EVERY_MS = 2000, RANKS = { note: "all", warning: "warnings and errors", error: "errors" };
 
@@ -43,5 +43,5 @@ export function Log() {
     <table><thead><tr><th scope="col">when</th><th scope="col">what</th></tr></thead>
       <tbody>${shown.map((line) => html`<tr class=${line.rank}><td><time>${time(line.at_s)}</time></td><td>${line.text}</td></tr>`)}</tbody></table>
     ${!shown.length && html`<p>${lines.length ? "No line has that." : "Nothing has been logged since the start."}</p>`}
-    <p class="said" role="status">${said}</p></section>`;
+    <${Said} text=${said} /></section>`;
 }

@@ -1,6 +1,6 @@
 // Pairing this browser, and the list of all that are paired.
 import { post, read } from "/box.js";
-import { act, html, useEffect, useState } from "/ui.js";
+import { act, html, intoSight, Said, useEffect, useRef, useState } from "/ui.js";
 
 function guess() {
   const agent = navigator.userAgent;
@@ -11,22 +11,26 @@ function guess() {
 
 /** `locked`: the box shows itself to paired browsers alone. */
 export function Pair({ onPaired, locked }) {
-  const [open, setOpen] = useState(false), [code, setCode] = useState(""), [name, setName] = useState(guess), [said, say] = useState("");
+  const [open, setOpen] = useState(false), [code, setCode] = useState(""), [name, setName] = useState(guess), [said, say] = useState(""), form = useRef(null), typed = useRef(null);
   const begin = () => act(post("pair/begin").then(() => setOpen(true)), say);
+  // The whole form comes into sight, with the field for the code ready.
+  useEffect(() => void (open && (intoSight(form.current), typed.current.focus({ preventScroll: true }))), [open]);
   const enter = (event) => {
     event.preventDefault();
-    act(post("pair", { code, name }).then(onPaired), say);
+    say("");
+    act(post("pair", { code, name }).then(onPaired), (fault) => (say(fault), fault && (typed.current.focus({ preventScroll: true }), typed.current.select())));
   };
   return html`<section class="pair" aria-label="Pair this browser">
     <p>${locked ? "This box shows itself to paired browsers alone. You can stop it. To look, and to move the antenna," : "You can look, and stop. To move the antenna,"} pair this browser once.</p>
     ${!open && html`<button type="button" class="go" onClick=${begin}>Pair this browser</button>`}
-    ${open && html`<form onSubmit=${enter}>
+    ${open && html`<form onSubmit=${enter} ref=${form}>
       <p>The box shows six digits on its display for two minutes. Without a display: <code>rotator pair</code></p>
-      <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}" required autofocus value=${code}
-        onInput=${(event) => setCode(event.target.value)} /></label>
+      <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}" required value=${code} ref=${typed}
+        aria-invalid=${said !== ""} aria-describedby="pair-said" onInput=${(event) => setCode(event.target.value)} /></label>
+      <${Said} id="pair-said" text=${said} />
       <label>Name<input required maxlength="40" value=${name} onInput=${(event) => setName(event.target.value)} /></label>
       <button type="submit" class="go">Pair</button> <button type="button" onClick=${begin}>Show a code again</button></form>`}
-    <p class="said" role="status">${said}</p>
+    ${!open && html`<${Said} text=${said} />`}
   </section>`;
 }
 
@@ -42,5 +46,5 @@ export function Paired({ hello, onChange }) {
       <span>paired ${days(one.since_s)}, seen ${days(one.seen_s)}</span>
       <button type="button" onClick=${() => revoke(one.number)} aria-label=${`Unpair ${one.name}`}>Unpair</button></li>`)}</ul>
     <p>A program gets a token: <code>rotator pair --token NAME</code>. What it may ask: <a href="/api/">the API</a></p>
-    <p class="said" role="status">${said}</p></section>`;
+    <${Said} text=${said} /></section>`;
 }

@@ -1,7 +1,7 @@
 // All that the file can say: a form for each of its tables, what would change, and the new start of the box with it.
 import { post, read } from "/box.js";
 import { Field, plain, shown, typed } from "/fields.js";
-import { act, html, useEffect, useMemo, useState } from "/ui.js";
+import { html, intoSight, Said, useEffect, useMemo, useRef, useState } from "/ui.js";
 
 const AGAIN_MS = 700, PATIENCE_MS = 60_000;
 const later = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -52,17 +52,23 @@ export function useSettings(say, hello) {
   return { file, tables, busy, lost, lose: setLost, load, change };
 }
 
-/** In place of what needs the file: why there is none yet. `settings.lost`: the box has refused to show it. */
-export function Missing({ settings: { file, busy, lost, load, change }, now }) {
-  if (lost) return html`<p class="mistake" role="alert">${lost}</p><button type="button" onClick=${load}>Look again</button>`;
-  if (file?.file !== "") return html`<p>Reading the file …</p>`;
-  const make = () => change("settings/file", { stop: now.status.moving });
-  return html`<p>This box runs without a file, so nothing can be set. It gets <code>rotator.toml</code> in the folder where it was started, or takes the one that is there, and starts anew with it in a few seconds. Later, by hand: <code>rotator run --config rotator.toml</code>.${now.status.moving && html` <b>The antenna moves: it stops.</b>`}</p>
-    <button type="button" class="go" disabled=${busy !== ""} onClick=${make}>Make a file</button> <span role="status">${busy}</span>`;
+/** In place of what needs the file, while it is read; or why it cannot be. */
+export function Missing({ settings: { lost, load } }) {
+  if (!lost) return html`<p>Reading the file …</p>`;
+  return html`<p class="mistake" role="alert">${lost}</p><button type="button" onClick=${load}>Look again</button>`;
 }
 
-/** Whether the box has a file, and it is here. */
-export const ready = ({ file, tables }) => !!(file?.file && tables);
+/** Whether the settings are here. */
+export const ready = ({ file, tables }) => !!(file && tables);
+
+/** A box that was started without a file gets one with the first change; or at once. */
+export function NoFile({ settings: { file, busy, change }, moving }) {
+  if (!file || file.used) return null;
+  const begin = () => change("settings/file", { stop: moving });
+  return html`<section class="no-file"><p>${file.there ? html`This box was started without its file. <code>${file.file}</code> is there: the next change is written to it, and the box starts anew with it.`
+    : html`This box runs without a file, as a simulated rotor. The first change that you write makes one, <code>${file.file}</code>, and the box starts anew with it.`} <code>make run</code> and <code>rotator run</code> in that folder take it, too.${moving && html` <b>The antenna moves: a new start stops it.</b>`}</p>
+    <button type="button" disabled=${busy !== ""} onClick=${begin}>${file.there ? "Start with it now" : "Make it now"}</button></section>`;
+}
 
 /** Lines that change: + and - at their beginning. */
 export function Diff({ rows, label }) {
@@ -126,37 +132,75 @@ function ListTable({ table, file, draft, setDraft, ...more }) {
   })}<button type="button" onClick=${() => setMore(count - had + 1)}>One more: [[${name(table.path)}]]</button>`;
 }
 
-/** What would change, and the question whether it is to be written. The antenna stops where it moves. */
-export function Proposed({ diff, moving, onWrite, onLeave }) {
-  return html`<section class="asks proposed" role="group" aria-label="What would change">
-    <${Diff} rows=${diff} label="Lines that change" />
-    <p>The box writes this, keeps the file before beside it, and starts anew: that takes a few seconds.${moving && html` <b>The antenna moves: it stops.</b>`}</p>
-    <button type="button" class="go" onClick=${onWrite}>Write it and start anew</button> <button type="button" onClick=${onLeave}>Not yet</button></section>`;
+/** A value as a person reads it; a whole table of a list with all its keys. */
+const worded = (value) => value != null && typeof value === "object" && !Array.isArray(value) ? Object.entries(value).map(([key, each]) => `${key} ${worded(each)}`).join(", ")
+  : Array.isArray(value) && value.some((each) => Array.isArray(each)) ? JSON.stringify(value) : Array.isArray(value) ? value.join(", ") : String(value);
+
+/** What would change: each key with both values and its meaning. The lines of the file are there for who wants them. */
+function Changes({ changes, diff, settings: { tables, file } }) {
+  const about = (place) => tables.find((table) => same(table.path, place.slice(0, -1).filter((part) => typeof part === "string")))?.keys.find((of) => of.key === place.at(-1));
+  const without = (place, usual = worded(at(file.in_force, place) ?? "")) => (usual === "" ? "not set" : `left out, so ${usual}`);
+  return html`${changes.length ? html`<table class="changes"><thead><tr><th scope="col">setting</th><th scope="col">now</th><th scope="col">then</th></tr></thead>
+    <tbody>${changes.map(({ place, before, after }) => {
+      const of = about(place), whole = typeof place.at(-1) === "number", unit = of?.unit ? ` ${of.unit}` : "";
+      return html`<tr><th scope="row">${name(place)}${of && html`<small>${plain(of.meaning)}</small>`}</th>
+        <td><span class="only-read">now </span>${before == null ? (whole ? "not there" : without(place)) : `${worded(before)}${unit}`}</td>
+        <td><span class="only-read">then </span><b>${after == null ? (whole ? "taken out" : "left out") : `${worded(after)}${unit}`}</b></td></tr>`;
+    })}</tbody></table>` : html`<p>No value changes, only how the file writes it.</p>`}
+    <details><summary>The lines of the file</summary><${Diff} rows=${diff} label="Lines that change" /></details>`;
+}
+
+/** A change in two presses: what it would be, then it is written and the box starts anew. `check` takes the values of the
+    request. `view`: the question, or what came of it. `onDone`: it is written, and the box is back. */
+export function useChange(settings, moving, onDone = () => {}) {
+  const [proposed, propose] = useState(null), [told, tell] = useState({ text: "" }), asks = useRef(null), { file, busy, change } = settings;
+  const forget = () => (propose(null), tell({ text: "" }));
+  const check = (values) => {
+    forget();
+    post("settings/check", { digest: file.digest, ...values }).then((found) => {
+      if (!found.mistakes.length && !found.diff.length) tell({ text: "Nothing changes.", good: true });
+      else propose({ ...found, values });
+    }, (fault) => tell({ text: fault.message }));
+  };
+  const write = () => change("settings/write", { digest: file.digest, ...proposed.values, stop: moving }).then((done) => {
+    propose(null);
+    if (!done) return;
+    tell({ text: `Written to ${file.file}. The box runs with it now.`, good: true });
+    onDone();
+  });
+  useEffect(() => void intoSight(asks.current), [proposed]);
+  const fits = proposed && !proposed.mistakes.length;
+  const view = html`${fits && html`<section class="asks proposed" role="group" aria-label="What would change" ref=${asks}>
+    <${Changes} ...${proposed} settings=${settings} />
+    <p>The box writes this to <code>${file.file}</code>${file.there ? ", keeps the file before beside it," : ""} and starts anew: that takes a few seconds.${moving && html` <b>The antenna moves: it stops.</b>`}</p>
+    <button type="button" class="go" disabled=${busy !== ""} onClick=${write}>Write it and start anew</button> <button type="button" disabled=${busy !== ""} onClick=${forget}>Not yet</button>
+    <span role="status">${busy}</span></section>`}<${Said} ...${told} />`;
+  return { proposed, check, forget, tell, view, mistakes: proposed?.mistakes ?? [] };
 }
 
 /** `only`: names of tables, and `keys`: of keys in them, for a step of its own; without them all that the file can say. */
-export function Settings({ settings, now, say, only, keys }) {
-  const { file, busy, change, load } = settings, within = only ? `step-${only.join("-")}` : "set";
+export function Settings({ settings, now, only, keys }) {
+  const { file, busy, load } = settings, within = only ? `step-${only.join("-")}` : "set";
   const tables = useMemo(() => settings.tables?.filter((table) => !only || only.includes(name(table.path))), [settings.tables]);
-  const [draft, setDraft] = useState({}), [forgotten, setForgotten] = useState(0), [words, setWords] = useState(""), [proposed, propose] = useState(null);
-  const mistakes = proposed?.mistakes ?? [], changes = useMemo(() => (ready(settings) ? changesOf(draft, tables, file.values) : []), [draft, file]);
-  useEffect(() => (propose(null), undefined), [draft]);
-  if (!ready(settings)) return html`<${Missing} settings=${settings} now=${now} />`;
+  const [draft, setDraft] = useState({}), [forgotten, setForgotten] = useState(0), [words, setWords] = useState(""), form = useRef(null);
+  const { check, forget, proposed, mistakes, view } = useChange(settings, now.status.moving, () => setDraft({})), changes = useMemo(() => (ready(settings) ? changesOf(draft, tables, file.values) : []), [draft, file]);
+  // What is typed anew was not checked. After the new start nothing is left to write, and its word stays.
+  useEffect(() => void (Object.keys(draft).length && forget()), [draft]);
+  useEffect(() => void intoSight([...form.current?.querySelectorAll("p.mistake") ?? []].map((each) => each.closest(".field") ?? each)[0]), [mistakes.length && proposed]);
+  if (!ready(settings)) return html`<${Missing} settings=${settings} />`;
   const wanted = words.trim().toLowerCase();
   const find = (table, of) => keys ? keys.includes(of.key) : !wanted || `${name(table.path)}.${of.key} ${of.meaning}`.toLowerCase().includes(wanted);
-  const check = () => act(post("settings/check", { digest: file.digest, changes }).then(propose), say);
-  const write = () => change("settings/write", { digest: file.digest, changes, stop: now.status.moving }).then((done) => (propose(null), done && setDraft({})));
   const wrong = (table) => mistakes.filter((each) => each.places.some((place) => same(place.filter((part) => typeof part === "string").slice(0, -1), table.path) || same(place, table.path))).length;
   const placed = (each) => each.places.some((place) => tables.some((table) => table.keys.some((of) => same([...table.path, of.key], place.filter((part) => typeof part === "string")))));
   const use = { within, file, draft, setDraft, mistakes, find };
-  return html`<section class="settings" aria-label=${only ? "Settings of this step" : "All settings"}>
+  return html`<section class="settings" ref=${form} aria-label=${only ? `Settings: ${only.join(", ")}` : "All settings"}>
     ${!only && html`<p>All that <code>${file.file}</code> can say. A field that is left empty is not in the file.</p>
       <label>Find a setting<input type="search" value=${words} onInput=${(event) => setWords(event.target.value)} /></label>`}
-    <div class=${`actions ${only ? "after" : ""}`}><button type="button" class="go" disabled=${!changes.length || busy !== ""} onClick=${check}>${changes.length ? `See ${changes.length === 1 ? "the change" : `${changes.length} changes`}` : "Nothing is changed"}</button>
-      ${changes.length > 0 && html`<button type="button" onClick=${() => (setDraft({}), setForgotten(forgotten + 1), load())}>Forget ${changes.length === 1 ? "it" : "them"}</button>`}
+    <div class=${`actions ${only ? "after" : ""}`}><button type="button" class="go" disabled=${!changes.length || busy !== ""} onClick=${() => check({ changes })}>${changes.length ? `See ${changes.length === 1 ? "the change" : `${changes.length} changes`}` : "Nothing is changed"}</button>
+      ${changes.length > 0 && html`<button type="button" onClick=${() => (setDraft({}), forget(), setForgotten(forgotten + 1), load())}>Forget ${changes.length === 1 ? "it" : "them"}</button>`}
       <span role="status">${busy || (mistakes.length > 0 && `${mistakes.length} to mend`)}</span></div>
     ${mistakes.filter((each) => !placed(each)).map((each) => html`<p class="mistake" role="alert">${each.text}</p>`)}
-    ${proposed && !mistakes.length && (proposed.diff.length ? html`<${Proposed} diff=${proposed.diff} moving=${now.status.moving} onWrite=${write} onLeave=${() => propose(null)} />` : html`<p role="status">Nothing changes.</p>`)}
+    <div class="outcome">${view}</div>
     ${tables.filter((table) => table.keys.some((of) => find(table, of))).map((table) => {
       const bad = wrong(table), touched = Object.keys(draft).some((text) => same(JSON.parse(text).filter((part) => typeof part === "string").slice(0, table.path.length), table.path));
       return html`<details key=${name(table.path)} open=${!!wanted || !!only || bad > 0 || undefined}><summary><b>${name(table.path)}</b> ${plain(table.meaning)}${touched && html` <i>changed</i>`}${bad > 0 && html` <b class="mistake">${bad} wrong</b>`}</summary>

@@ -4,36 +4,32 @@ import { Calibrate } from "/calibrate.js";
 import { Errands } from "/errands.js";
 import { Asks } from "/hand.js";
 import { Header } from "/header.js";
-import { Missing, Proposed, Settings, ready, useSettings } from "/settings.js";
-import { act, fitted, html, useEffect, useRef, useState } from "/ui.js";
+import { Place } from "/place.js";
+import { Missing, NoFile, Settings, ready, useChange, useSettings } from "/settings.js";
+import { act, fitted, html, intoSight, useEffect, useRef, useState } from "/ui.js";
 
 const JUST_MS = 5000, ASKS = /^(C2?|B|p|\\?get_pos|AZ EL|AI1;?|:GZ#|\?)$/i;
 const RELAYS = [["cw", "azimuth CW"], ["ccw", "azimuth CCW"], ["up", "elevation up"], ["down", "elevation down"]];
 
 /** The questions that make a new file: what an answer changes is asked anew. */
-function Rotor({ settings, now, say }) {
-  const [questions, setQuestions] = useState(null), [answers, setAnswers] = useState({}), [proposed, propose] = useState(null);
+function Rotor({ settings, now }) {
+  const [questions, setQuestions] = useState(null), [answers, setAnswers] = useState({}), { proposed, check, forget, view } = useChange(settings, now.status.moving);
   useEffect(() => {
     let late = false;
     if (ready(settings)) post("setup/questions", { answers }).then((told) => late || setQuestions(told.questions), (fault) => late || settings.lose(fault.message));
     return () => (late = true);
   }, [answers, ready(settings) && settings.file]);
-  const { file, change, busy } = settings;
-  if (!questions || !ready(settings)) return html`<${Missing} settings=${settings} now=${now} />`;
+  if (!questions || !ready(settings)) return html`<${Missing} settings=${settings} />`;
   const all = { ...Object.fromEntries(questions.map(({ name, answer }) => [name, answer])), ...answers };
-  const set = (name, answer) => (propose(null), setAnswers((before) => ({ ...before, [name]: answer })));
-  const values = { digest: file.digest, answers: all };
-  const see = () => act(post("settings/check", values).then(propose), say);
-  const write = () => change("settings/write", { ...values, stop: now.status.moving }).then(() => propose(null));
+  const set = (name, answer) => (forget(), setAnswers((before) => ({ ...before, [name]: answer })));
   return html`${questions.map(({ name, text, help, choices, open, answer: old, mistake }) => [all[name] ?? old, name, text, help, choices, open, mistake]).map(([answer, name, text, help, choices, open, mistake]) => html`<div class="field" key=${name}>
       <label for=${`ask-${name}`}>${text}</label>
       ${choices.length > 0 && html`<select id=${`ask-${name}`} aria-describedby=${`ask-${name}-help`} value=${choices.some((each) => each.answer === answer) ? answer : ""} onInput=${(event) => set(name, event.target.value)}>
         ${choices.map((each) => html`<option value=${each.answer}>${each.words}</option>`)}${open && !choices.some((each) => each.answer === answer) && html`<option value="">${answer}</option>`}</select>`}
       ${(!choices.length || (open && name !== "rotor")) && html`<input id=${choices.length ? null : `ask-${name}`} aria-label=${choices.length ? `${text} Another answer` : null} aria-describedby=${`ask-${name}-help`} placeholder=${choices.length ? "or another one" : ""} value=${choices.some((each) => each.answer === answer) ? "" : answer} onInput=${(event) => set(name, event.target.value)} />`}
       <p class="about" id=${`ask-${name}-help`}>${help}</p>${mistake && html`<p class="mistake" role="alert">${mistake}</p>`}</div>`)}
-    ${proposed ? html`<${Proposed} diff=${proposed.diff} moving=${now.status.moving} onWrite=${write} onLeave=${() => propose(null)} />`
-      : html`<button type="button" class="go" disabled=${busy !== "" || questions.some((each) => each.mistake)} onClick=${see}>See the new file</button>
-        <p class="about">It begins as the shipped file of that rotor, in place of the one that is there. What it says of this page stays.</p>`}`;
+    ${view}${!proposed && html`<button type="button" class="go" disabled=${settings.busy !== "" || questions.some((each) => each.mistake)} onClick=${() => check({ answers: all })}>See the new file</button>
+        ${questions.some((each) => each.mistake) && html`<p class="mistake">First mend what stands in red above.</p>`}<p class="about">It begins as the shipped file of that rotor, in place of the one that is there. What it says of this page stays.</p>`}`;
 }
 
 function Wiring({ settings, say }) {
@@ -88,37 +84,41 @@ function place({ tcp, udp, serial, baud, pty }) {
 }
 
 function Network({ settings, now, say }) {
-  const { file, change, busy } = settings, [allow, setAllow] = useState(null), [proposed, propose] = useState(null), [offered, setOffered] = useState([]);
+  const { file, busy } = settings, [allow, setAllow] = useState(null), { proposed, check, forget, view } = useChange(settings, now.status.moving), [offered, setOffered] = useState([]);
   useEffect(() => void act(post("setup/questions", { answers: {} }).then(({ questions }) => setOffered((questions.find((each) => each.name === "network")?.choices ?? []).map((each) => each.answer).filter((each) => each !== "here"))), say), []);
-  const wanted = allow ?? offered[0] ?? "", values = { digest: file?.digest, open_to: wanted };
+  const wanted = allow ?? offered[0] ?? "";
   const open = (file?.in_force?.link ?? []).filter((link) => link.protocol === "rotctld" && /^(0\.0\.0\.0|\[?::\]?):/.test(link.tcp ?? ""));
   return html`<p>${open.length ? html`rotctld is open: <code>${place(open[0])}</code>, for ${(open[0].allow ?? ["every machine"]).join(", ")}. Test it there: <code>rotctl -m 2 -r ${place(open[0])} p</code>, and watch “Is it heard?” above.` : "Programs of other computers do not reach rotctld now."}</p>
     <p>There is no password: every program that reaches it turns the antenna.</p>
-    <label>The network that may turn it<input value=${wanted} placeholder="192.168.1.0/24" onInput=${(event) => (propose(null), setAllow(event.target.value))} /></label>
-    ${proposed ? html`<${Proposed} diff=${proposed.diff} moving=${now.status.moving} onWrite=${() => change("settings/write", { ...values, stop: now.status.moving }).then(() => propose(null))} onLeave=${() => propose(null)} />`
-      : html`<button type="button" class="go" disabled=${!wanted || busy !== ""} onClick=${() => act(post("settings/check", values).then(propose), say)}>Open it to ${wanted || "this network"}</button>`}`;
+    <label>The network that may turn it<input value=${wanted} placeholder="192.168.1.0/24" onInput=${(event) => (forget(), setAllow(event.target.value))} /></label>
+    ${view}${!proposed && html`<button type="button" class="go" disabled=${!wanted || busy !== ""} onClick=${() => check({ open_to: wanted })}>Open it to ${wanted || "this network"}</button>`}`;
 }
 
-function Clock({ say }) {
+function Clock({ now, say }) {
   const [off, setOff] = useState(null);
   useEffect(() => void fetch("/api/me").then((answer) => setOff((new Date(answer.headers.get("Date")) - Date.now()) / 1000), () => {}), []);
-  return off != null && html`<p>${Math.abs(off) < 3 ? "The clocks of the box and of this browser agree." : html`<b class="mistake">The box's clock is ${Math.abs(Math.round(off))} s ${off > 0 ? "ahead of" : "behind"} this browser's.</b> One of them is wrong: satellites need the right time.`}</p>
-    <p>A box that has reached no time server tracks nothing, before a person says that its time is right:</p>
-    <${Asks} label="The time of the box is right" question="Is the time of the box right, to a second? A satellite is elsewhere a second later." yes="It is right" onYes=${() => act(post("clock-is-right"), say)} />`;
+  return html`${off != null && html`<p>${Math.abs(off) < 3 ? "The clocks of the box and of this browser agree." : html`<b class="mistake">The box's clock is ${Math.abs(Math.round(off))} s ${off > 0 ? "ahead of" : "behind"} this browser's.</b> One of them is wrong: satellites need the right time.`}</p>`}
+    ${!now.clock_known && html`<p>The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:</p>
+    <${Asks} label="The time of the box is right" question="Is the time of the box right, to a second? A satellite is elsewhere a second later." yes="It is right" onYes=${() => act(post("clock-is-right"), say)} />`}`;
 }
 
-function Step({ number, title, done, children, open }) {
-  const [shown, show] = useState(open);
-  return html`<details class="step" open=${shown} onToggle=${(event) => show(event.currentTarget.open)}><summary><b>${number}. ${title}</b> <small>${done}</small></summary>${shown && html`<div>${children}</div>`}</details>`;
+/** `#setup/8` opens step 8. */
+function Step({ number, title, done, children }) {
+  const named = location.hash === `#setup/${number}`, [shown, show] = useState(named), self = useRef(null);
+  useEffect(() => void (named && (show(true), intoSight(self.current))), [named]);
+  return html`<details class="step" ref=${self} open=${shown} onToggle=${(event) => show(event.currentTarget.open)}><summary><b>${number}. ${title}</b> <small>${done}</small></summary>${shown && html`<div>${children}</div>`}</details>`;
 }
 
-export function Setup({ now, hello, say }) {
+export function Setup({ now, hello, station, say }) {
   const settings = useSettings(say, hello);
   const { file } = settings, made = ready(settings), of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
   const calibrated = (axis) => !now.status[axis].fitted ? "not fitted" : (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
-  const missing = html`<${Missing} settings=${settings} now=${now} />`;
+  const missing = html`<${Missing} settings=${settings} />`, known = station.where !== null, begins = useRef(!known).current;
+  const placed = made && html`<${Place} ...${of} known=${known} />`;
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
   return html`<div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
+    <${NoFile} settings=${settings} moving=${moving} />
+    ${begins && made && html`<section class="begin"><h3>Begin here: place and satellites</h3>${placed}${!now.clock_known && html`<${Clock} now=${now} say=${say} />`}</section>`}
     <${Step} number="1" title="Which rotor" done=${file?.values.rotor?.type}><${Rotor} ...${of} /><//>
     <${Step} number="2" title="Wiring" done=${file?.values.rotor?.hardware === "pi" ? "on this Pi" : "simulated"}><${Wiring} settings=${settings} say=${say} /><//>
     <${Step} number="3" title="Try each relay"><${Relays} now=${now} hello=${hello} say=${say} />${some(["relays"])}<//>
@@ -127,7 +127,7 @@ export function Setup({ now, hello, say }) {
     ${["azimuth", "elevation"].map((axis, at) => html`<${Step} number=${5 + at} title=${`Calibrate the ${axis}`} done=${calibrated(axis)}>${!now.status[axis].fitted ? html`<p>This rotor has no ${axis}.</p>`
       : html`${made ? html`<${Calibrate} axis=${axis} settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} />` : missing}<${Errands} now=${now} axes=${[axis]} say=${say} />`}<//>`)}
     <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount", "mount.forbidden"], ["endless", "min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon", "name", "azimuth_deg", "elevation_deg"])}<//>
-    <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}><${Clock} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
+    <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}>${!begins && placed}<${Clock} now=${now} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
     <${Step} number="10" title="Open it to the network">${made ? html`<${Network} ...${of} />` : missing}<//>
     <${Step} number="11" title="All settings"><${Settings} ...${of} /><//></div>`;

@@ -1,5 +1,5 @@
 // The template language and the hooks, from the vendored libraries, in one place.
-import { useEffect } from "/vendor/hooks.mjs";
+import { useEffect, useRef } from "/vendor/hooks.mjs";
 import { h, render } from "/vendor/preact.mjs";
 import htm from "/vendor/htm.mjs";
 import { inWords, said } from "/words.js";
@@ -16,6 +16,16 @@ export const degrees = (angle, digits = 1) => (angle == null ? "---" : `${angle.
 
 /** The axes that the rotor has. `of`: the status, or the facts of the box. */
 export const fitted = (of) => ["azimuth", "elevation"].filter((axis) => of[axis].fitted);
+
+/** What answers a press is in sight, never behind STOP or the edge: the margins of the page are in style.css. */
+export const intoSight = (element) => element?.scrollIntoView({ block: element.offsetHeight > innerHeight / 2 ? "start" : "nearest" });
+
+/** A sentence that answers a press, beside what was pressed. Good news is told in the same place. */
+export function Said({ text, good, id }) {
+  const here = useRef(null);
+  useEffect(() => void (text && intoSight(here.current)), [text]);
+  return html`<p class=${`said ${good ? "good" : ""}`} id=${id} role="status" ref=${here}>${text}</p>`;
+}
 
 let acts = 0;
 
