@@ -1,6 +1,6 @@
 """One JSON file with a format name, replaced as a whole: the form of each file in which the box stores something.
 
-The name has a number, `rotator counts 1`, and steps from an earlier number to the present. Knows that a damaged or
+The name has a number, "rotator counts 1", and steps from an earlier number to the present. Knows that a damaged or
 foreign file must not stop the box, and that the file of a later version stays as it is. Does not know what the content
 means: each store has its own `parse`.
 """

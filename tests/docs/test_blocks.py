@@ -21,6 +21,7 @@ from pathlib import Path
 
 import click
 import pytest
+from click.testing import CliRunner
 
 from docs.blocks import PROMPTS, ROOT, Step, every_step, matches, steps
 from rotator.cli.main import cli
@@ -30,6 +31,10 @@ from tests.tables import every_row
 
 PATIENCE_S = 30.0
 PAGES = sorted({step.page for step in every_step() if step.prompt == "$"})
+SPEAK = (
+    (".", "*.md"), ("docs", "**/*.md"), ("rotator", "**/*.py"), ("rotator/web/static", "*.js"), ("rotator/config", "**/*.toml"),
+)  # fmt: skip
+INLINE = re.compile(r"(?:`|<code>)(?:sudo )?(?:-u rotator )?(?:\.venv/bin/)?rotator ([a-zA-Z-][^`<{]*)(?:`|</code>)")
 OURS = re.compile(r"^(?:sudo )?(?:-u rotator )?(?:\.venv/bin/)?rotator (.*)$")
 
 
@@ -114,7 +119,7 @@ def options_of(words: list[str]) -> None:
     """Reads a command line as the program does, and runs nothing. Raises click.UsageError."""
     command: click.Command = cli
     context = click.Context(command, info_name="rotator")
-    while isinstance(command, click.Group):
+    while isinstance(command, click.Group) and words:
         name, words = words[0], words[1:]
         found = command.get_command(context, name)
         assert found is not None, f"no command {name}"
@@ -130,6 +135,26 @@ def test_a_command_that_is_not_run_is_at_least_one_that_there_is(step: Step) -> 
     elif "./install.sh" in command:
         usage = (ROOT / "install.sh").read_text(encoding="utf-8").split("\nEND\n")[0]
         assert [word for word in command.split() if word.startswith("--") and word not in usage] == []
+
+
+def inline() -> dict[str, str]:
+    """Each command of this program within a sentence: of the pages, of the page in the browser, of the program's own
+    words; with the first file that has it."""
+    found: dict[str, str] = {}
+    for folder, pattern in SPEAK:
+        for file in sorted(ROOT.joinpath(folder).glob(pattern)):
+            for said in INLINE.finditer(file.read_text(encoding="utf-8")):
+                found.setdefault(" ".join(said[1].split()), str(file.relative_to(ROOT)))
+    return found
+
+
+@every_row("command", inline())
+def test_a_command_within_a_sentence_can_be_typed(command: str) -> None:
+    words = shlex.split(re.split(r" [&>|#]", command)[0])
+    if words[0] == "help":
+        assert words[1].isupper() or CliRunner().invoke(cli, words).exit_code == 0, words
+    elif words[0] not in ("COMMAND", "--version", "--help"):
+        options_of([*words, *["NAME"] * (words[-1] == "--token")])
 
 
 def test_every_block_says_which_machine_it_is_for() -> None:

@@ -68,7 +68,7 @@ def test_a_setting_is_changed_in_the_file_and_its_remark_stays(
     page.get_by_role("button", name="See the change").click()
     row = page.locator(".changes tr", has_text="mount.park_azimuth_deg")
     row.get_by_text("The park position").wait_for()
-    assert row.locator("td").all_text_contents() == ["now 90 °", "then 95 °"]
+    assert row.locator("td").all_text_contents() == ["now 90°", "then 95°"]
     in_sight(page, page.get_by_role("button", name="Write it and start anew"))
     page.get_by_text("The lines of the file").click()
     page.locator(".diff .new", has_text="+park_azimuth_deg = 95   # away from the trees").wait_for()

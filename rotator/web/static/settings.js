@@ -139,12 +139,12 @@ const worded = (value) => value != null && typeof value === "object" && !Array.i
 /** What would change: each key with both values and its meaning. The lines of the file are there for who wants them. */
 function Changes({ changes, diff, settings: { tables, file } }) {
   const about = (place) => tables.find((table) => same(table.path, place.slice(0, -1).filter((part) => typeof part === "string")))?.keys.find((of) => of.key === place.at(-1));
-  const without = (place, usual = worded(at(file.in_force, place) ?? "")) => (usual === "" ? "not set" : `left out, so ${usual}`);
+  const without = (place, unit, usual = worded(at(file.in_force, place) ?? "")) => (usual === "" ? "not set" : `left out, so ${usual}${unit}`);
   return html`${changes.length ? html`<table class="changes"><thead><tr><th scope="col">setting</th><th scope="col">now</th><th scope="col">then</th></tr></thead>
     <tbody>${changes.map(({ place, before, after }) => {
-      const of = about(place), whole = typeof place.at(-1) === "number", unit = of?.unit ? ` ${of.unit}` : "";
+      const of = about(place), whole = typeof place.at(-1) === "number", unit = !of?.unit ? "" : of.unit === "°" ? "°" : ` ${of.unit}`;
       return html`<tr><th scope="row">${name(place)}${of && html`<small>${plain(of.meaning)}</small>`}</th>
-        <td><span class="only-read">now </span>${before == null ? (whole ? "not there" : without(place)) : `${worded(before)}${unit}`}</td>
+        <td><span class="only-read">now </span>${before == null ? (whole ? "not there" : without(place, unit)) : `${worded(before)}${unit}`}</td>
         <td><span class="only-read">then </span><b>${after == null ? (whole ? "taken out" : "left out") : `${worded(after)}${unit}`}</b></td></tr>`;
     })}</tbody></table>` : html`<p>No value changes, only how the file writes it.</p>`}
     <details><summary>The lines of the file</summary><${Diff} rows=${diff} label="Lines that change" /></details>`;

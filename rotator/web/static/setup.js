@@ -118,7 +118,7 @@ export function Setup({ now, hello, station, say }) {
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
   return html`<div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
     <${NoFile} settings=${settings} moving=${moving} />
-    ${begins && made && html`<section class="begin"><h3>Begin here: place and satellites</h3>${placed}${!now.clock_known && html`<${Clock} now=${now} say=${say} />`}</section>`}
+    ${begins && made && html`<section class="begin"><h3>Begin here: place and satellites</h3>${placed}${known && !now.clock_known && html`<${Clock} now=${now} say=${say} />`}</section>`}
     <${Step} number="1" title="Which rotor" done=${file?.values.rotor?.type}><${Rotor} ...${of} /><//>
     <${Step} number="2" title="Wiring" done=${file?.values.rotor?.hardware === "pi" ? "on this Pi" : "simulated"}><${Wiring} settings=${settings} say=${say} /><//>
     <${Step} number="3" title="Try each relay"><${Relays} now=${now} hello=${hello} say=${say} />${some(["relays"])}<//>
