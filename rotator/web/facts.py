@@ -5,8 +5,11 @@ Knows a mount and a place, and makes plain values of them. Knows no HTTP and no 
 
 from __future__ import annotations
 
+import shutil
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated
 
 from typing_extensions import TypedDict
@@ -35,6 +38,7 @@ _Sector = TypedDict("_Sector", {"name": str, "azimuth": Pair, "elevation": Pair}
 
 class BoxFacts(TypedDict):
     version: str
+    command: Annotated[str, the("how a person at the box, in its folder, types this program")]
     simulated: Annotated[bool, the("nothing real turns")]
     beam_deg: Annotated[float, the("how wide the antenna sees")]
     where: Annotated[Pair | None, the("latitude and longitude, to a whole degree for who is not paired")]
@@ -46,12 +50,21 @@ class BoxFacts(TypedDict):
     sectors: Annotated[Sequence[_Sector], the("where the antenna may not go")]
 
 
+def command(started: str) -> str:
+    """`rotator` where the shell finds it; else the path by which the program was started, as `.venv/bin/rotator`."""
+    path = Path(started)
+    if path.name != "rotator" or shutil.which("rotator"):
+        return "rotator"
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else started
+
+
 def box(station: Station, status: Status, *, stranger: bool) -> BoxFacts:
     """The range, the horizon, the sectors: for the browser's one request. A stranger learns the place to a degree."""
     mount = station.mount
     exact = station.where
     return {
         "version": __version__,
+        "command": command(sys.argv[0]),
         "simulated": status.simulated,
         "beam_deg": station.beam_deg,
         "where": [round(deg) for deg in exact] if exact and stranger else exact,

@@ -32,7 +32,8 @@ from tests.tables import every_row
 PATIENCE_S = 30.0
 PAGES = sorted({step.page for step in every_step() if step.prompt == "$"})
 SPEAK = (
-    (".", "*.md"), ("docs", "**/*.md"), ("rotator", "**/*.py"), ("rotator/web/static", "*.js"), ("rotator/config", "**/*.toml"),
+    (".", "*.md"), ("docs", "**/*.md"), ("rotator", "**/*.py"), ("rotator/web/static", "*.js"),
+    ("rotator/config", "**/*.toml"),
 )  # fmt: skip
 INLINE = re.compile(r"(?:`|<code>)(?:sudo )?(?:-u rotator )?(?:\.venv/bin/)?rotator ([a-zA-Z-][^`<{]*)(?:`|</code>)")
 OURS = re.compile(r"^(?:sudo )?(?:-u rotator )?(?:\.venv/bin/)?rotator (.*)$")

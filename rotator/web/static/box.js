@@ -63,6 +63,9 @@ export async function read(path) {
 
 let boxAheadMs = 0;
 
+/** How a person at the box types its program: after `make run` it is a path. */
+export let command = "rotator";
+
 /** The time by the box's clock, in ms since 1970: a phone's own may be wrong, and all that the box tells is by its own. */
 export const boxTime = () => Date.now() + boxAheadMs;
 
@@ -113,7 +116,10 @@ export class Live {
         return;
       }
       if (!told.now) return;
-      if (told.hello) this.hello = told.hello;
+      if (told.hello) {
+        this.hello = told.hello;
+        command = told.hello.box.command;
+      }
       this.number = told.n;
       this.picture = told.now;
       this.locked = false;

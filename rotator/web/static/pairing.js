@@ -1,5 +1,5 @@
 // Pairing this browser, and the list of all that are paired.
-import { post, read } from "/box.js";
+import { command, post, read } from "/box.js";
 import { act, html, intoSight, Said, useEffect, useRef, useState } from "/ui.js";
 
 function guess() {
@@ -24,7 +24,7 @@ export function Pair({ onPaired, locked }) {
     <p>${locked ? "This box shows itself to paired browsers alone. You can stop it. To look, and to move the antenna," : "You can look, and stop. To move the antenna,"} pair this browser once.</p>
     ${!open && html`<button type="button" class="go" onClick=${begin}>Pair this browser</button>`}
     ${open && html`<form onSubmit=${enter} ref=${form}>
-      <p>The box shows six digits on its display for two minutes. Without a display: <code>rotator pair</code></p>
+      <p>The box shows six digits on its display for two minutes. Without a display: <code>${command} pair</code></p>
       <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}" required value=${code} ref=${typed}
         aria-invalid=${said !== ""} aria-describedby="pair-said" onInput=${(event) => setCode(event.target.value)} /></label>
       <${Said} id="pair-said" text=${said} />
@@ -45,6 +45,6 @@ export function Paired({ hello, onChange }) {
     <ul>${all.map((one) => html`<li><b>${one.name}</b>${one.number === hello.number && " (this one)"}
       <span>paired ${days(one.since_s)}, seen ${days(one.seen_s)}</span>
       <button type="button" onClick=${() => revoke(one.number)} aria-label=${`Unpair ${one.name}`}>Unpair</button></li>`)}</ul>
-    <p>A program gets a token: <code>rotator pair --token NAME</code>. What it may ask: <a href="/api/">the API</a></p>
+    <p>A program gets a token: <code>${command} pair --token NAME</code>. What it may ask: <a href="/api/">the API</a></p>
     <${Said} text=${said} /></section>`;
 }

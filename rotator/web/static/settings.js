@@ -1,5 +1,5 @@
 // All that the file can say: a form for each of its tables, what would change, and the new start of the box with it.
-import { post, read } from "/box.js";
+import { command, post, read } from "/box.js";
 import { Field, plain, shown, typed } from "/fields.js";
 import { html, intoSight, Said, useEffect, useMemo, useRef, useState } from "/ui.js";
 
@@ -66,7 +66,7 @@ export function NoFile({ settings: { file, busy, change }, moving }) {
   if (!file || file.used) return null;
   const begin = () => change("settings/file", { stop: moving });
   return html`<section class="no-file"><p>${file.there ? html`This box was started without its file. <code>${file.file}</code> is there: the next change is written to it, and the box starts anew with it.`
-    : html`This box runs without a file, as a simulated rotor. The first change that you write makes one, <code>${file.file}</code>, and the box starts anew with it.`} <code>make run</code> and <code>rotator run</code> in that folder take it, too.${moving && html` <b>The antenna moves: a new start stops it.</b>`}</p>
+    : html`This box runs without a file, as a simulated rotor. The first change that you write makes one, <code>${file.file}</code>, and the box starts anew with it.`} Later <code>${command} run</code> in that folder takes it by itself.${moving && html` <b>The antenna moves: a new start stops it.</b>`}</p>
     <button type="button" disabled=${busy !== ""} onClick=${begin}>${file.there ? "Start with it now" : "Make it now"}</button></section>`;
 }
 
