@@ -26,6 +26,7 @@ from rotator.exchange.status import AxisStatus, Status
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, beyond_beam
 from rotator.runtime.loop import ControlLoop
+from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
 from rotator.store.state import State
 from rotator.tracking.file_reader import FileReader
@@ -45,7 +46,8 @@ log = logging.getLogger(__name__)
 def build_tracking(config: Config, loop: ControlLoop, mount: Mount, state: State) -> TrackingThread:
     """Not started yet. Without a place it tracks directions and tables."""
     reader, planner, box = FileReader(), ProcessPlanner(), TrackedBox(config, loop, mount)
-    sky = KnownSky(build_site(config.station), build_later_catalogue(config, reader.read))
+    favourites = KeptFavourites(state)
+    sky = KnownSky(build_site(config.station), build_later_catalogue(config, reader.read), favourites.target_of)
     clock, simulated = SystemClock(), config.rotor.hardware == "sim"
     # A simulated rotor needs no right clock: it may track the sky of any moment.
     tracker = Tracker(
@@ -72,7 +74,15 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount, state: State
 
     loop.overhear(hear)
     return TrackingThread(
-        tracker, follower, listener, sky, planner=planner, reader=reader, clock=clock, priorities=priorities
+        tracker,
+        follower,
+        listener,
+        sky,
+        planner=planner,
+        reader=reader,
+        clock=clock,
+        priorities=priorities,
+        favourites=favourites,
     )
 
 

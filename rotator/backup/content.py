@@ -25,6 +25,7 @@ from rotator.config.model import Config
 from rotator.exchange.foreign import json_of
 from rotator.store import learnt
 from rotator.store.compass import COMPASS
+from rotator.store.favourites import FAVOURITES
 from rotator.store.json_file import Form, LaterFormError, decode, encode
 from rotator.store.knobs import KNOBS
 from rotator.store.plain import read_plain
@@ -36,7 +37,7 @@ FORM = Form("rotator backup")
 ABOUT, CONFIGURATION, STATE = "backup.json", "rotator.toml", "state.json"
 CHECKS: Mapping[str, Callable[[Any], object]] = {
     learnt.LEARNT.name: learnt.check,
-    **{section.name: section.parse for section in (COMPASS, KNOBS, PRIORITIES)},
+    **{section.name: section.parse for section in (COMPASS, FAVOURITES, KNOBS, PRIORITIES)},
 }
 """The sections of the state that belong to a backup. Each check raises as a section's `parse` does."""
 FORMS = {STATE: STATE_FORM, **{f"{name}.json": form for name, form in EARLIER.items() if name in CHECKS}}

@@ -176,7 +176,7 @@ METHODS = (
     Method("park", "Go to the park position, and stay there until `resume`", lambda: Park(storm=True)),
     Method(
         "track",
-        "Track a satellite, Sun, Moon, a locator, a country; `plan`: those of the configuration; `off`: nothing",
+        "Track a satellite, Sun, Moon, a place, a country, a favourite; `plan`: what the file follows; `off`: nothing",
         Track,
         (Words("target", "its name, as `rotator track` takes it", "Moon"),),
     ),

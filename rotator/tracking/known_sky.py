@@ -7,6 +7,7 @@ replaces the old one whole.
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -25,9 +26,15 @@ _ANYWHERE = Site(0.0, 0.0)
 
 
 class KnownSky:
-    """`site` None: the configuration has no place of the station; then only fixed directions are known."""
+    """`site` None: the configuration has no place of the station; then only fixed directions are known.
 
-    def __init__(self, site: Site | None, catalogue: Catalogue) -> None:
+    `favourite` gives the target of a person's own name for it; empty: it is none.
+    """
+
+    def __init__(
+        self, site: Site | None, catalogue: Catalogue, favourite: Callable[[str], str] = lambda _name: ""
+    ) -> None:
+        self._favourite = favourite
         self.site = site
         self._catalogue = catalogue
         self._elements: tuple[Elements, ...] | None = None
@@ -83,7 +90,13 @@ class KnownSky:
         """A target that moves, or a fixed direction. Raises Unknown, NotThere."""
         site = self.site
         # An unknown name is the first error; the second, that the station's place is not known.
-        target = find(words, site or _ANYWHERE, self._catalogue)
+        try:
+            target = find(words, site or _ANYWHERE, self._catalogue)
+        except Unknown:
+            # A name of the sky comes first: no favourite takes the name of another satellite.
+            if not (words := self._favourite(words)):
+                raise
+            target = find(words, site or _ANYWHERE, self._catalogue)
         match target:
             case Fixed(_, where) if site is not None or fixed(words) is not None:
                 return Aim(where.azimuth_deg, max(0.0, where.elevation_deg))

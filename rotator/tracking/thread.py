@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 
 from rotator.orbits.elements import Elements
+from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
 from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
@@ -42,12 +43,14 @@ class TrackingThread:
         reader: FileReader,
         clock: SystemClock,
         priorities: Priorities,
+        favourites: KeptFavourites,
         steady_s: Callable[[], float] = time.monotonic,
     ) -> None:
         """`steady_s`: the clock of the control loop."""
         self.tracker = tracker
         self.sky = sky
         self.priorities = priorities
+        self.favourites = favourites
         self._follower = follower
         self._listener = listener
         self._planner = planner

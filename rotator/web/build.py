@@ -101,6 +101,7 @@ def build_page(
         from rotator.web.box_file import BoxFile  # noqa: PLC0415
         from rotator.web.elements import ElementFiles  # noqa: PLC0415
         from rotator.web.entrance import Doors  # noqa: PLC0415
+        from rotator.web.favourites import FavouritesApi  # noqa: PLC0415
         from rotator.web.flown import FlownPictures  # noqa: PLC0415
         from rotator.web.help_api import help_groups  # noqa: PLC0415
         from rotator.web.plan import Passes, Plan, command  # noqa: PLC0415
@@ -122,6 +123,7 @@ def build_page(
             tracking.read_again()
 
         plan = Plan(config.sky.follow, tracking.sky, tracking.priorities, passes, changed=plan_again, utc=time.time)
+        favourites = FavouritesApi(tracking.favourites, tracking.sky)
         uploads, fetches = Uploads(uploaded_folder(config)), fetches_file(config)
         elements = ElementFiles(tracking.sky, uploads, fetches, config.sky.fetch, changed=read_again, utc=time.time)
         kept = FlownPasses(Path(config.state.path).parent)
@@ -143,7 +145,7 @@ def build_page(
             reading_open=config.page.reading == "open",
             utc=time.time,
             groups=(
-                lambda _entrance: (*plan.routes(), *elements.routes(), *flown.routes()),
+                lambda _entrance: (*plan.routes(), *favourites.routes(), *elements.routes(), *flown.routes()),
                 lambda _entrance: (*SettingsApi(file).routes(), *SettingUpApi(file, calibration).routes()),
                 *help_groups(config, file, place, pairings=pairings, lines=lines, wires=wire_log),
             ),

@@ -101,7 +101,7 @@ BEYOND = """() => {
     const width = document.documentElement.clientWidth, seen = [];
     for (const one of document.querySelectorAll("body *:not(svg *)")) {
         const { left, right, width: own } = one.getBoundingClientRect(), style = getComputedStyle(one);
-        if (!own || style.clipPath !== "none" || one.parentElement.closest("pre, .strip")) continue;
+        if (!own || style.clipPath !== "none" || one.parentElement.closest("pre, .strip, .scroller")) continue;
         const cut = one.matches("button, a, dd, dt, h1, h2, h3, p, td") && style.display !== "inline"
             && one.scrollWidth > one.clientWidth + 1;
         if (right > width + 1 || left < -1 || cut) seen.push(`${one.tagName}.${one.className}: ${one.textContent}`);

@@ -1,4 +1,4 @@
-"""The Sky view in Chromium: a pass is tracked and its picture kept, a priority dragged, elements sent, good and bad."""
+"""The Sky view in Chromium: a pass is tracked and its picture kept, elements sent, good and bad."""
 
 from __future__ import annotations
 
@@ -79,45 +79,6 @@ def test_a_table_of_directions_is_sent_and_tracked_and_a_mistake_in_it_is_told(
     page.get_by_label("Track a table of directions").set_input_files(good)
     page.get_by_text("Tracks good").wait_for(timeout=COMPUTED_MS)
     assert violations(page) == []
-
-
-def names(page: Page) -> list[str]:
-    return page.locator(".followed li b").all_inner_texts()
-
-
-def test_a_dragged_priority_changes_the_plan_and_not_the_file(start: Start, visit: Visit, tmp_path: Path) -> None:
-    station = start(place(tmp_path, follow=("COMING", "RIVAL")))
-    before = (tmp_path / "r.toml").read_text(encoding="utf-8")
-    page = visit(station)
-    pair(page)
-    page.get_by_role("link", name="Sky").click()
-    page.locator(".plan td", has_text="after COMING").or_(
-        page.locator(".plan td", has_text="for RIVAL")
-    ).first.wait_for(timeout=120_000)  # a process behind all other work computes it
-    assert names(page) == ["COMING", "RIVAL"]
-    page.get_by_role("heading", name="The plan").evaluate("heading => heading.scrollIntoView()")  # from behind STOP
-    lower = page.get_by_role("button", name="RIVAL, place 2 of 2").bounding_box()
-    upper = page.get_by_role("button", name="COMING, place 1 of 2").bounding_box()
-    assert lower is not None
-    assert upper is not None
-    page.mouse.move(lower["x"] + 5, lower["y"] + 5)
-    page.mouse.down()
-    page.mouse.move(upper["x"] + 5, upper["y"] + 5, steps=4)
-    page.mouse.up()
-    page.get_by_text("priority 2, in the file 1").wait_for()
-    assert names(page) == ["RIVAL", "COMING"]
-    assert "RIVAL" in (tmp_path / "state.json").read_text(encoding="utf-8")
-    assert (tmp_path / "r.toml").read_text(encoding="utf-8") == before
-    page.reload()
-    page.get_by_text("priority 2, in the file 1").wait_for()
-    assert names(page) == ["RIVAL", "COMING"]
-    page.get_by_role("button", name="RIVAL, place 1 of 2").focus()
-    page.keyboard.press("ArrowDown")
-    page.locator("button:focus", has_text="⠿").wait_for()
-    waits_for(page, lambda: names(page) == ["COMING", "RIVAL"])
-    assert violations(page) == []
-    page.get_by_role("button", name="The file's order again").click()
-    page.get_by_text("in the file 1").wait_for(state="detached")
 
 
 def test_elements_are_sent_whole_or_not_at_all(start: Start, visit: Visit, tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import NO_TRIES, Tries, Trust
 from rotator.exchange.status import Latch
 from rotator.store.compass import COMPASS, KeptCompass
+from rotator.store.favourites import FAVOURITES, FIRST, MOST, Favourite
 from rotator.store.knobs import KNOBS
 from rotator.store.latch import DAMAGED, LATCH
 from rotator.store.priorities import PRIORITIES, Changed
@@ -40,6 +41,7 @@ KEPT: dict[str, tuple[Section[Any], Any]] = {
     "relays": (RELAYS, {AZ: (Trust.WELDED, Trust.OPEN), EL: (Trust.UNSEEN, Trust.DOUBTED)}),
     "knobs": (KNOBS, {AZ: 0.1, EL: 1.1}),
     "compass": (COMPASS, bytes(range(22))),
+    "favourites": (FAVOURITES, (Favourite("Prague", "JO70fc"), Favourite("beacon", "143 5"))),
     "priorities": (PRIORITIES, {"ISS": Changed(1000.0, 0.0)}),
 }
 
@@ -69,6 +71,10 @@ def priority(priority: object, written: object = 1.0) -> Any:
     return {"changed": {"ISS": {"priority": priority, "written": written}}}
 
 
+def buttons(*pairs: tuple[object, object]) -> Any:
+    return {"buttons": [{"name": name, "target": target} for name, target in pairs]}
+
+
 BAD_STOPS: list[dict[str, Any]] = [
     {"by": ""},
     {"storm": False},
@@ -88,6 +94,9 @@ DAMAGES: list[tuple[Section[Any], Any, Any]] = [
     (KNOBS, {"full_scales": {"polarisation": 0.9}}, {}),
     (COMPASS, {}, None),
     *((COMPASS, {"offsets": offsets}, None) for offsets in (5, "zz", "00 " * 21)),
+    *((FAVOURITES, buttons(each), FIRST) for each in (("", "Moon"), ("x" * 31, "Moon"), ("a", "\x1b"), (5, "Moon"))),
+    (FAVOURITES, buttons(("a", "Moon"), ("A", "Sun")), FIRST),
+    (FAVOURITES, buttons(*((str(number), "Moon") for number in range(MOST + 1))), FIRST),
     (PRIORITIES, {"changed": []}, {}),
     *((PRIORITIES, priority(*each), {}) for each in ((0,), (1e9,), (1000.5,), (2, -0.5))),
 ]

@@ -15,6 +15,7 @@ from rotator.assembly.tracking import build_antenna
 from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.timed_table import TimedTable
+from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
 from rotator.store.state import State
 from rotator.tracking.file_reader import FileReader
@@ -85,6 +86,7 @@ def test_the_thread_outlives_a_mistake_of_the_program(tmp_path: Path, caplog: py
         reader=FileReader(),
         clock=SystemClock(),
         priorities=Priorities(State(tmp_path / "state.json")),
+        favourites=KeptFavourites(State(tmp_path / "state.json")),
         steady_s=box.clock,
     )
     thread.start()

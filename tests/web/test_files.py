@@ -13,10 +13,6 @@ FILES = assets.load()
 OURS = sorted(path for path in FILES if "/vendor/" not in path and path != "/" and not path.endswith(".png"))
 
 
-def test_all_of_it_compressed_is_below_100_kib() -> None:
-    assert sum(len(asset.packed) for path, asset in FILES.items() if path != "/") <= 100 * 1024
-
-
 def test_with_the_words_of_the_longest_language_it_is_below_130_kib() -> None:
     words = max(len(assets.packed(assets.SCRIPT, module(language)).packed) for language in LANGUAGES)
     assert words + sum(len(asset.packed) for path, asset in FILES.items() if path != "/") <= 130 * 1024

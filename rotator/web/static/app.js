@@ -5,6 +5,7 @@ import { Demo } from "/demo.js";
 import { AzimuthDial, ElevationDial } from "/dials.js";
 import { Errands } from "/errands.js";
 import { Asks, directionOf, JogPad, Target, ThereFromSky, Track } from "/hand.js";
+import { Favourites } from "/favourites.js";
 import { Help, helps } from "/help.js";
 import { Pair, Paired } from "/pairing.js";
 import { PassMode } from "/pass.js";
@@ -12,6 +13,7 @@ import { Passes } from "/passes.js";
 import { Control, Front, Headline, Links, Mode, Notes, Strip } from "/panels.js";
 import { Setup } from "/setup.js";
 import { Sky } from "/sky.js";
+import { Timeline } from "/timeline.js";
 import { act, fitted, html, render, useEffect, useEvery, useState } from "/ui.js";
 
 const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000;
@@ -50,7 +52,8 @@ function Antenna({ station, now, hello, fresh, say }) {
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
     <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /><${Demo} now=${now} say=${say} /></div>
     <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${setDraft} />
-      ${paired && html`<${ThereFromSky} station=${station} draft=${draft} say=${say} />`}</div>
+      ${paired && html`<${ThereFromSky} station=${station} draft=${draft} say=${say} /><${Favourites} now=${now} station=${station} say=${say} />`}</div>
+    <div class="panel timeline-panel"><${Timeline} now=${now} station=${station} hello=${hello} say=${say} /></div>
     <section class="panel hand" aria-label="By hand">
       <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
       <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />

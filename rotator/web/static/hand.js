@@ -1,12 +1,12 @@
 // By hand: buttons that turn the antenna while they are held, a target to point at or track, places that are kept, park.
 import { post, read } from "/box.js";
+import { keep } from "/favourites.js";
 import { number, NumberField } from "/numbers.js";
 import { act, fitted, html, useEffect, useRef, useState } from "/ui.js";
 
 const CLICK_S = 0.5;
 const TURNS = [["up", "Up", "▲", "elevation"], ["ccw", "CCW", "◀", "azimuth"], ["cw", "CW", "▶", "azimuth"], ["down", "Down", "▼", "elevation"]];
 const TYPED_MS = 250;
-const PRESETS = [["North", 0, 0], ["East", 90, 0], ["South", 180, 0], ["West", 270, 0]];
 
 function HeldButton({ live, turn, name, arrow, say }) {
   const [held, setHeld] = useState(false), pressed = useRef(false);
@@ -47,15 +47,6 @@ export function JogPad({ station, live, say }) {
     <p class="hint">hold</p></div>`;
 }
 
-function kept() {
-  try {
-    const list = JSON.parse(localStorage.getItem("presets"));
-    return Array.isArray(list) ? list : PRESETS;
-  } catch {
-    return PRESETS;
-  }
-}
-
 /** The direction in degrees that a draft stands for; null: it is not whole yet. */
 export function directionOf(draft) {
   const found = (draft ?? []).map(number);
@@ -66,10 +57,8 @@ const pointAt = ([azimuth_deg, elevation_deg], say) => act(post("point", { azimu
 
 /** `draft`: azimuth and elevation as a person has typed or pressed them; null: neither yet. */
 export function Target({ station, draft, setDraft, say }) {
-  const [presets, setPresets] = useState(kept);
   const [az, el] = draft ?? [station.azimuth.fitted ? "" : "0", station.elevation.fitted ? "" : "0"], there = directionOf(draft);
   const shown = (place) => fitted(station).map((axis) => `${place[axis === "azimuth" ? 0 : 1]}°`).join(" / ");
-  const keep = (list) => (setPresets(list), localStorage.setItem("presets", JSON.stringify(list)));
   const point = (event) => {
     event.preventDefault();
     pointAt(directionOf(draft), say);
@@ -80,11 +69,7 @@ export function Target({ station, draft, setDraft, say }) {
       ${station.elevation.fitted && html`<${NumberField} label="Elevation" required least=${station.elevation.min_deg} value=${el} onInput=${(text) => setDraft([az, text])} />`}
       <button type="submit" class="go">Point there</button>
     </div>
-    <div class="chips" role="group" aria-label="Kept places">
-      ${presets.map(([name, atAz, atEl], index) => html`<span class="chip"><button type="button" onClick=${() => setDraft([atAz, atEl])}>${name}</button>
-        ${index >= PRESETS.length && html`<button type="button" aria-label=${`Forget ${name}`} onClick=${() => keep(presets.filter((_, each) => each !== index))}>×</button>`}</span>`)}
-      ${there && html`<button type="button" class="quiet" onClick=${() => keep([...presets, [shown(there), ...there]])}>keep ${shown(there)}</button>`}
-    </div>
+    ${there && html`<button type="button" class="quiet" onClick=${() => act(keep(shown(there), there.join(" ")), say)}>Keep ${shown(there)} as a favourite</button>`}
   </form>`;
 }
 

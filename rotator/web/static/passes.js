@@ -1,14 +1,15 @@
 // The sky of the next day: what to track by a press, which satellite rises when and how high, and how far its elements
 // may be off.
-import { boxTime, post, read, send } from "/box.js";
+import { boxTime, post, send } from "/box.js";
 import { Elements } from "/elements.js";
 import { Flown } from "/flown.js";
 import { Track } from "/hand.js";
 import { number, NumberField } from "/numbers.js";
-import { Followed, PlanTable } from "/plan.js";
-import { act, html, useEffect, useRef, useState } from "/ui.js";
+import { PlanTable, usePasses } from "/plan.js";
+import { Timeline } from "/timeline.js";
+import { act, html, useEffect, useState } from "/ui.js";
 
-const EVERY_MS = 600_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, ROWS = 12, MOST_ROWS = 100;
+const ROWS = 12, MOST_ROWS = 100;
 const BODIES = ["Sun", "Moon", "Mercury", "Venus", "Mars", "Jupiter", "Saturn"];
 const STATES = { off: "The box tracks nothing.", planning: "The box plans the next pass …", tracking: "The box tracks.", refused: "The box goes on with what it tracked.", rests: "The plan is not flown now." };
 
@@ -32,36 +33,9 @@ function Row({ pass, now, paired, tracked, track, beam }) {
     <td>${paired && html`<button type="button" aria-pressed=${tracked} onClick=${() => track(pass.name)} aria-label=${`Track ${pass.name}`}>${tracked ? "tracked" : "Track"}</button>`}</td></tr>`;
 }
 
-/** The passes, asked for again until they are computed. Null: not yet. `again` asks anew. */
-function usePasses(say) {
-  const [passes, setPasses] = useState(null), [waits, setWaits] = useState(true), again = useRef(() => {});
-  useEffect(() => {
-    let timer, gone = false;
-    const load = () => {
-      clearTimeout(timer);
-      read("passes").then((told) => {
-        if (gone) return;
-        say("");
-        setWaits(!told);
-        if (told) setPasses(told.passes);
-        timer = setTimeout(load, told ? EVERY_MS : COMPUTES_MS);
-      }, (fault) => {
-        if (gone) return;
-        setWaits(false);
-        say(fault.message);
-        timer = setTimeout(load, FAILED_MS);
-      });
-    };
-    again.current = load;
-    load();
-    return () => ((gone = true), clearTimeout(timer));
-  }, []);
-  return [passes, waits, () => again.current()];
-}
-
 export function Passes({ now: box, station, hello, say }) {
-  const { paired } = hello, [leastDeg, setLeastDeg] = useState("10"), [fault, tellFault] = useState(""), [now, setNow] = useState(boxTime), [rows, setRows] = useState(ROWS);
-  const [passes, waits, again] = usePasses(tellFault);
+  const { paired } = hello, [leastDeg, setLeastDeg] = useState("10"), [now, setNow] = useState(boxTime), [rows, setRows] = useState(ROWS);
+  const coming = usePasses(), { passes, waits, fault, again } = coming;
   useEffect(() => {
     const tick = setInterval(() => setNow(boxTime()), 5000);
     return () => clearInterval(tick);
@@ -82,10 +56,8 @@ export function Passes({ now: box, station, hello, say }) {
       <${Track} now=${box} known=${station.where} say=${say} />
       <label class="file">Track a table of directions: CSV with t,az,el<input type="file" onChange=${trackTable} accept=".csv,.txt" /></label>`}
     </section>
-    <section class="log"><h2>The plan</h2>
-      <${Followed} hello=${hello} paired=${paired} changed=${again} say=${say} />
-      ${passes && html`<div class=${waits ? "old" : ""}><${PlanTable} passes=${passes} /></div>`}
-      <p role="status">${waits ? "The box computes passes and plan …" : ""}</p></section>
+    <section class="log"><${Timeline} now=${box} station=${station} hello=${hello} say=${say} coming=${coming} />
+      ${passes && html`<details class=${waits ? "old" : ""}><summary>The plan as a list</summary><${PlanTable} passes=${passes} /></details>`}</section>
     <section class="log passes"><h2>Passes of the next day</h2>
     <p>Error: how far a satellite may be off, from the age of its elements.</p>
     <${NumberField} label="Passes that reach, in degrees" least="0" value=${leastDeg} onInput=${setLeastDeg} />
