@@ -43,6 +43,8 @@ class ReadingWatch:
         self._during: list[tuple[float, float]] = []
         """(moment, reading) since the movement began."""
         self._directions: set[Direction] = set()
+        self._runs_s = 0.0
+        """Since when the motor runs this way. Before that the axis stood, or went the other way."""
         self._failed = False
         self._expected_until_s: float | None = None
         self._seen_s: float | None = None
@@ -71,7 +73,10 @@ class ReadingWatch:
         if status.at_s == self._seen_s:
             return None
         self._seen_s = status.at_s
-        self._status = axis = status.axis(self._axis)
+        axis = status.axis(self._axis)
+        if self._status is None or axis.drive is not self._status.drive:
+            self._runs_s = status.at_s
+        self._status = axis
         if axis.drive is not Direction.OFF:
             self._directions.add(axis.drive)
             self._expected_until_s = None
@@ -93,12 +98,12 @@ class ReadingWatch:
 
     def stands(self) -> bool:
         """The motor has run for a while and the reading, which comes without a fault, does not change."""
-        if not self.driven or not self._during or self._failed:
+        if self._status is None or self._status.drive is Direction.OFF or not self._during or self._failed:
             return False
-        began_s, now_s = self._during[0][0], self._during[-1][0]
+        now_s = self._during[-1][0]
         lately = takewhile(lambda seen: now_s - seen[0] <= STANDING_S, reversed(self._during))
         latest = [raw for _, raw in lately][::-1]
-        return now_s - began_s > STANDING_S and len(latest) >= REST_READINGS and stands(latest, self._unit)
+        return now_s - self._runs_s > STANDING_S and len(latest) >= REST_READINGS and stands(latest, self._unit)
 
     def _end(self) -> AxisMoved:
         directions, failed = self._directions, self._failed

@@ -64,3 +64,16 @@ def test_a_slow_rotor_is_accepted_and_a_stalled_one_is_told(
     assert "Not accepted" not in said
     run.world.inject(f"{name.value}-motor-stalled")
     assert SAYS in run.say("y", *[axis, axis, axis]) + run.text
+
+
+@every_row("pause_s", [0.3, 0.7, 1.0, 1.5, 2.5])
+@every_row(("axis", "there", "back"), [(Axis.AZIMUTH, "r", "l"), (Axis.ELEVATION, "u", "d")])
+def test_a_motor_that_is_reversed_is_not_said_to_stand(
+    calibration: Start, axis: Axis, there: str, back: str, pause_s: float
+) -> None:
+    """The readings of the way before, and of the pause between, say nothing of the way back."""
+    run = calibration(axis=axis)
+    for key in (there, back) * 3:
+        run.now(key)
+        run.wait(pause_s)
+    assert SAYS not in run.text
