@@ -178,8 +178,8 @@ class App:
     async def _calibrate(self, calibration: PageCalibration) -> None:
         """Until the guide ends. Then the box starts anew with what has been saved."""
         try:
-            await calibration.run(self.loop)
+            await calibration.run(self.loop, self.station.rotor.sensors)
         except Exception:
             log.exception("the calibration has failed: nothing of it is saved")
-        self._anew.calibration_lines = calibration.lines
+        self._anew.calibrated = calibration.outcome()
         self._anew.ask(self.loop.status)

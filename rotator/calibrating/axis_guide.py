@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.calibrating.entries import Entry, Press, StopNow
-from rotator.calibrating.guide import Abandoned, Guide
+from rotator.calibrating.guide import Abandoned, Asked, Guide
 from rotator.calibrating.phrases import Phrases, phrases_for
+from rotator.calibrating.question import Question
 from rotator.calibrating.reading_watch import AxisMoved, ReadingWatch
 from rotator.calibrating.readings import READINGS, SHARES, Measured, NotTrusted, ReadingUnit, measure
 from rotator.calibrating.results import Saved
@@ -52,6 +53,10 @@ class AxisGuide(Guide):
     def __init__(self, facts: AxisFacts) -> None:
         self.facts = facts
         self.result: Saved | None = None
+        self.points: tuple[tuple[float, float], ...] = ()
+        """(reading, degrees) of what has been taken so far."""
+        self.runs_s: float | None = None
+        """How long the motor runs that is being timed."""
         self._phrases: Phrases = phrases_for(facts.axis)
         super().__init__(self._phrases.keys, facts.least_deg, facts.greatest_deg)
         self._watch = ReadingWatch(facts.axis, facts.unit, facts.settle_s)
@@ -92,14 +97,14 @@ class AxisGuide(Guide):
 
     # --- directions
 
-    def _turn(self, direction: Direction, prompt: str, sign: int) -> Generator[None, None, float]:
+    def _turn(self, direction: Direction, sign: int) -> Generator[None, None, float]:
         """Ask for presses until the reading has changed enough in one direction. Returns the change.
 
         `sign`: the direction that the reading must change in, 1 or -1; 0: either. Raises Abandoned.
         """
         total, enough = 0.0, self.facts.unit.least_turn
         while abs(total) < enough:
-            event = yield from self._ask(prompt, self._phrases.press_first)
+            event = yield from self._ask_to_turn(direction)
             if not isinstance(event, AxisMoved):
                 self._say(self._accepts)
                 continue
@@ -125,11 +130,18 @@ class AxisGuide(Guide):
             raise Abandoned(self._phrases.same_way)
         return total
 
+    def _ask_to_turn(self, direction: Direction) -> Asked:
+        phrases, there = self._phrases, direction is Direction.PLUS
+        prompt = phrases.turn_plus if there else phrases.turn_minus
+        title = phrases.page_turn_plus if there else phrases.page_turn_minus
+        page = Question(title, phrases.page_direction_check if there else (), "plus" if there else "minus")
+        return (yield from self._ask(prompt, phrases.press_first, page))
+
     # --- a reading
 
     def _measured(self) -> Generator[None, None, Measured]:
         """The mean of many readings of the axis at rest. Raises NotTrusted."""
-        self.prompt = "Reading; hands off."
+        self._show("Reading; hands off.", Question("It is being read: hands off.", picture="reading"))
         self._orders.append(Stop())
         begun_s, seen_s, readings = None, None, list[float]()
         while len(readings) < READINGS:
@@ -186,6 +198,7 @@ class AxisGuide(Guide):
             self._standstill_reported = True
             self._say("The reading stands still: it is at its stop, or something is wrong.")
         if isinstance(self._event, AxisMoved) and self._event.movement is not None:
+            self.remarks.clear()
             self._say(self._movement_text(self._event))
 
     def _movement_text(self, event: AxisMoved) -> str:

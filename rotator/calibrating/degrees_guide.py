@@ -13,6 +13,7 @@ from rotator.assembly.calibration import CalibrationTraits
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.entries import Number, StopNow, Word
 from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps, position_unknown
+from rotator.calibrating.question import HALT, Choice, Question
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import NotTrusted
 from rotator.calibrating.results import AxisCalibrated
@@ -34,11 +35,14 @@ class DegreesGuide(AxisGuide):
 
     def _path(self) -> Steps:
         phrases, facts = self._phrases, self.facts
-        self._say(*phrases.introduction)
+        self._lead(*phrases.introduction)
         if self._traits.first_press:
             self._say("", self._traits.first_press)
         yield from self._find_position()
-        self._say("", *phrases.direction_check)
+        homes, limits = ("End stop",) * self._traits.homes, ("Lowest angle", "Highest angle")
+        self.stages = ("Directions", *homes, *(() if self._traits.endless else limits), "Save")
+        self.stage = "Directions"
+        self._lead("", *phrases.direction_check)
         if self._traits.homes:
             yield from self._check_by_eye()
             if (yield from self._times()):
@@ -49,12 +53,16 @@ class DegreesGuide(AxisGuide):
         number = 3 if self._traits.homes else 2
         if self._traits.endless:
             low_deg, high_deg = facts.min_deg, facts.max_deg
-            self._say("", f"[{facts.axis.value}]: no ends, direction checked.")
+            learnt = phrases.no_ends
+            self._lead("", f"[{facts.axis.value}]: no ends, direction checked.")
         else:
-            low_deg = yield from self._limit(f"{number}. The lowest", facts.min_deg, facts.least_deg)
-            high_deg = yield from self._limit(f"{number + 1}. The highest", facts.max_deg, low_deg + LEAST_SPAN_DEG)
-            self._say("", f"[{facts.axis.value}]: limits {low_deg:g} to {high_deg:g}, direction checked.")
-        if (yield from self._agrees("Save this? y or n:")):
+            low_deg = yield from self._limit(number, "lowest", facts.min_deg, facts.least_deg)
+            high_deg = yield from self._limit(number + 1, "highest", facts.max_deg, low_deg + LEAST_SPAN_DEG)
+            learnt = phrases.may_be_sent(low_deg, high_deg)
+            self._lead("", f"[{facts.axis.value}]: limits {low_deg:g} to {high_deg:g}, direction checked.")
+        self.stage = "Save"
+        shown = phrases.directions_right, learnt
+        if (yield from self._agrees("Save this?", "save", shown, yes="Save it", no="Leave, save nothing")):
             self.result = AxisCalibrated(facts.axis, None, low_deg, high_deg)
         else:
             self._say(NOTHING_SAVED)
@@ -66,8 +74,10 @@ class DegreesGuide(AxisGuide):
         yield
         yield from self._await_axis()
         while self._unknown:
-            self._say("", f"The {self._who} does not know where it stands. Look at the antenna.")
-            angle_deg = yield from self._number("Which angle is that on the rotor's own scale?", None)
+            unknown = f"The {self._who} does not know where it stands. Look at the antenna."
+            self._lead("", unknown)
+            which = "Which angle is that on the rotor's own scale?"
+            angle_deg = yield from self._number(which, None, Question(hint=(unknown,), picture="angle"))
             if angle_deg is not None:
                 yield from self._confirm(angle_deg)
 
@@ -95,28 +105,28 @@ class DegreesGuide(AxisGuide):
     def _check_by_reading(self) -> Steps:
         """The sensor may be another device than the drive: both must agree with the operator's eye."""
         phrases = self._phrases
-        change = yield from self._turn(Direction.PLUS, phrases.turn_plus, 0)
-        if not (yield from self._agrees(phrases.did_it_turn)):
+        change = yield from self._turn(Direction.PLUS, 0)
+        if not (yield from self._agrees(phrases.did_it_turn, "plus")):
             raise Abandoned(phrases.turned_wrong(self._traits.reversal))
         if change < 0:
             raise Abandoned(phrases.reads_backwards)
-        yield from self._turn(Direction.MINUS, phrases.turn_minus, -1)
+        yield from self._turn(Direction.MINUS, -1)
         self._say("The degrees grow and shrink as they should: the directions are right.")
 
     def _check_by_eye(self) -> Steps:
         """A count takes its direction from the relays, so only the eye sees which way the antenna turned."""
         phrases = self._phrases
-        for direction, prompt, question in (
-            (Direction.PLUS, phrases.turn_plus, phrases.did_it_turn),
-            (Direction.MINUS, phrases.turn_minus, phrases.did_it_turn_back),
+        for direction, picture, question in (
+            (Direction.PLUS, "plus", phrases.did_it_turn),
+            (Direction.MINUS, "minus", phrases.did_it_turn_back),
         ):
             while True:
-                event = yield from self._ask(prompt, phrases.press_first)
+                event = yield from self._ask_to_turn(direction)
                 if isinstance(event, AxisMoved) and event.direction is direction:
                     break
                 if not isinstance(event, AxisMoved):
                     self._say(self._accepts)
-            if not (yield from self._agrees(question)):
+            if not (yield from self._agrees(question, picture)):
                 raise Abandoned(phrases.swap)
         self._say("The directions are right.")
 
@@ -128,14 +138,18 @@ class DegreesGuide(AxisGuide):
         return False
 
     def _find_end_stop(self) -> Steps:
-        self._say("", "2. The end stop, where the count begins.", *self._phrases.homing)
+        self._lead("", "2. The end stop, where the count begins.", *self._phrases.homing)
+        self.stage = "End stop"
+        shown = "home", self._phrases.page_homing
         if not needs_homing(self._axis):
             # A count made with exchanged relays is not the antenna's angle.
-            question = f"It says that it stands at {self._angle_text()}. Look for the stop all the same? y or n:"
-            if (yield from self._agrees(question)):
+            question = f"It says that it stands at {self._angle_text()}. Look for the stop all the same?"
+            if (yield from self._agrees(question, *shown, yes="Look for it", no="No")):
                 yield from self._home()
         while needs_homing(self._axis) or self._fault_text:
-            if not (yield from self._agrees("Look for it now? y or n:")):
+            now = "Look for it now?"
+            title = "It looks for its end stop, where the count begins. Now?"
+            if not (yield from self._agrees(title, *shown, yes="Look for it now", no="Leave", prompt=f"{now} y or n:")):
                 raise Abandoned("Left: without its end stop it does not know where it stands. Nothing is saved.")
             yield from self._home()
         self._say(f"It stands at {self._angle_text()}.")
@@ -145,7 +159,8 @@ class DegreesGuide(AxisGuide):
         if self._fault_text:
             self._orders.append(Stop())
         self._orders.append(Home(self.facts.axis))
-        self.prompt = "It looks for its stop; s stops it."
+        page = Question("It looks for its stop: watch the antenna.", picture="home", choices=(HALT,))
+        self._show("It looks for its stop; s stops it.", page)
         began_s = self._now_s
         while self._now_s - began_s < ORDER_TAKEN_S or self._axis.homing or self._axis.moving:
             if isinstance(self._entry, StopNow):
@@ -159,15 +174,19 @@ class DegreesGuide(AxisGuide):
 
     # --- limits
 
-    def _limit(self, which: str, now_deg: float, least_deg: float) -> Generator[None, None, float]:
-        self._say(
+    def _limit(self, step: int, which: str, now_deg: float, least_deg: float) -> Generator[None, None, float]:
+        self._lead(
             "",
-            f"{which} angle that it may be sent to: drive it there, or type it.",
-            "   A degree or two before its stop, or earlier, where cables, guy wires or a chimney are in the way.",
+            f"{step}. The {which} angle that it may be sent to: drive it there, or type it.",
+            *(f"   {line}" for line in self._phrases.page_limit),
         )
+        self.stage = f"{which.capitalize()} angle"
+        title, picture = f"The {which} angle that it may be sent to?", "low" if which == "lowest" else "high"
+        hint = ("Turn it there, or type the angle.", *self._phrases.page_limit)
+        page = Question(title, hint, picture, (Choice("Where it stands now", "\r"),), number=True, proposed=now_deg)
         while True:
             prompt = f"Enter: here; or an angle (in the file: {now_deg:g}):"
-            event = yield from self._ask(prompt, "Drive there, then Enter or y; or type the angle.")
+            event = yield from self._ask(prompt, "Drive there, then Enter or y; or type the angle.", page)
             match event:
                 case Word.ENTER | Word.YES:
                     angle_deg = yield from self._angle_here()

@@ -95,7 +95,7 @@ class FieldGuide(AxisGuide):
                 f"Iron adds {x:.1f} µT ahead and {y:.1f} µT to the left; the earth's field is {a:.1f} and {b:.1f} µT.",
                 f"   The headings were {off_deg:.1f}° beside the ring (rms).",
             )
-            if (yield from self._agrees("Save it? y or n:")):
+            if (yield from self._agrees("Save it?")):
                 self.result = FieldLearnt(ellipse)
             else:
                 self._say(NOTHING_SAVED)

@@ -7,9 +7,10 @@ Does not know what is asked: each subclass writes its own path.
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rotator.calibrating.entries import NUMBER_FORM, TAP_S, Entry, Number, Press, StopNow, Unknown, Word
+from rotator.calibrating.question import NO, YES, Choice, Question
 from rotator.calibrating.results import Result
 from rotator.exchange.faults import FaultKind
 from rotator.exchange.orders import Jog, Order, Stop
@@ -22,6 +23,8 @@ Asked = Generator[None, None, object]
 """Ends with an entry, or with an event that happened meanwhile."""
 
 ANSWERS = (Word, Number, Unknown)
+BACK = (Choice("Back", "b"),)
+TO_NUMBER = Question(choices=BACK)
 NOTHING_SAVED = "Nothing is saved."
 LEFT = "Left: nothing is saved."
 ORDER_TAKEN_S = 0.5
@@ -63,7 +66,16 @@ class Guide:
 
     def __init__(self, keys: str, least_deg: float, greatest_deg: float) -> None:
         self.prompt = ""
-        """The question that is open now."""
+        """The question that is open now, for a terminal."""
+        self.question = Question()
+        """The same for a view with buttons, and what else is to be seen there."""
+        self.asked = 0
+        """How many questions there have been: an answer to another one than the latest comes too late."""
+        self.stages: tuple[str, ...] = ()
+        self.stage = ""
+        """One of `stages`: how far it is."""
+        self.remarks: list[str] = []
+        """What it has said since the latest answer or movement, without what belongs to a question."""
         self.ended = False
         self._keys = keys
         self._least_deg, self._greatest_deg = least_deg, greatest_deg
@@ -145,9 +157,27 @@ class Guide:
 
     # --- one question
 
-    def _ask(self, prompt: str, accepts: str, *, may_turn: bool = True, may_go_back: bool = False) -> Asked:
-        """Ask, and end with the next entry or event. Presses are obeyed meanwhile. `accepts`: what may be typed."""
-        self.prompt, self._accepts, self._asking = prompt, accepts, True
+    def _show(self, prompt: str, page: Question) -> None:
+        """From now on this is asked, or waited for."""
+        if page != self.question:
+            self.asked += 1
+        self.prompt, self.question = prompt, page
+
+    def _ask(
+        self,
+        prompt: str,
+        accepts: str,
+        page: Question | None = None,
+        *,
+        may_turn: bool = True,
+        may_go_back: bool = False,
+    ) -> Asked:
+        """Ask, and end with the next entry or event. Presses are obeyed meanwhile. `accepts`: what may be typed.
+
+        `page`: the same for a view with buttons, of a guide that such a view can show.
+        """
+        self._accepts, self._asking = accepts, True
+        self._show(prompt, replace(page or Question(prompt), turns=may_turn))
         try:
             while True:
                 yield
@@ -163,6 +193,7 @@ class Guide:
                     case Word.BACK if not may_go_back:
                         self._say(f"There is nothing to take back here. {accepts}")
                     case entry if entry is not None and self._event is None:
+                        self.remarks.clear()
                         return entry
                 if self._event is not None:
                     # An entry that came in the same instant answered the question before this event.
@@ -170,9 +201,21 @@ class Guide:
         finally:
             self._asking = False
 
-    def _agrees(self, prompt: str) -> Generator[None, None, bool]:
+    def _agrees(
+        self,
+        title: str,
+        picture: str = "",
+        hint: tuple[str, ...] = (),
+        *,
+        yes: str = "Yes",
+        no: str = "No",
+        prompt: str = "",
+    ) -> Generator[None, None, bool]:
+        """`title`: the question; `prompt`: the same for a terminal, where it is another sentence."""
+        page = Question(title, hint, picture, (replace(YES, words=yes), replace(NO, words=no)))
+        prompt = prompt or f"{title} y or n:"
         while True:
-            match (yield from self._ask(prompt, "Type y for yes or n for no.", may_turn=False)):
+            match (yield from self._ask(prompt, "Type y for yes or n for no.", page, may_turn=False)):
                 case Word.YES:
                     return True
                 case Word.NO:
@@ -182,20 +225,23 @@ class Guide:
                 case _:
                     self._say(self._accepts)
 
-    def _number(self, prompt: str, proposed: float | None) -> Generator[None, None, float | None]:
+    def _number(
+        self, prompt: str, proposed: float | None, page: Question = TO_NUMBER
+    ) -> Generator[None, None, float | None]:
         """An angle in degrees. None: the operator wants to repeat the step before."""
         shown = prompt if proposed is None else f"{prompt} [{proposed:g}]"
         enter = "" if proposed is None else f"Enter alone takes {proposed:g}; "
         accepts = f"{NUMBER_FORM} {enter}n or b: one step back."
+        page = replace(page, title=page.title or prompt, number=True, proposed=proposed)
         while True:
-            match (yield from self._ask(shown, accepts, may_turn=False, may_go_back=True)):
+            match (yield from self._ask(shown, accepts, page, may_turn=False, may_go_back=True)):
                 case Number(value) if self._is_angle(value):
-                    self._say(f"  Understood: {value:g}°.")
+                    self._lead(f"  Understood: {value:g}°.")
                     return value
                 case Number(_):
                     pass
                 case Word.ENTER if proposed is not None:
-                    self._say(f"  Taken: {proposed:g}°.")
+                    self._lead(f"  Taken: {proposed:g}°.")
                     return proposed
                 case Word.NO | Word.BACK:
                     return None
@@ -212,6 +258,11 @@ class Guide:
         return False
 
     def _say(self, *lines: str) -> None:
+        self._lines += lines
+        self.remarks += [line.strip() for line in lines if line]
+
+    def _lead(self, *lines: str) -> None:
+        """In a terminal, what a view with buttons shows with its question."""
         self._lines += lines
 
 

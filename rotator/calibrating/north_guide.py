@@ -152,7 +152,7 @@ class NorthGuide(CompassGuide):
             f"It goes to {len(places)} places and stands at each for some seconds: {shown}° on the rotor's scale.",
             "   Watch the antenna and its cables.",
         )
-        if not (yield from self._agrees("Begin? y or n:")):
+        if not (yield from self._agrees("Begin?")):
             raise Abandoned(LEFT)
         found: list[North] = []
         for place_deg in places:
@@ -182,7 +182,8 @@ class NorthGuide(CompassGuide):
                 else:
                     self._say(f"  At {where}: offset {north.offset_deg:+.1f}°.")
                     return north
-            if not (yield from self._agrees("Try this place again? y, or n to leave it out:")):
+            again = "Try this place again?"
+            if not (yield from self._agrees(again, prompt=f"{again} y, or n to leave it out:")):
                 return None
 
     def _propose(self, north: North, places: int) -> Steps:
@@ -203,7 +204,7 @@ class NorthGuide(CompassGuide):
             )
         if away_deg <= north.uncertainty_deg:
             self._say("   They differ by less than a compass can show: the one in the file may be the better one.")
-        if (yield from self._agrees("Save it? y or n:")):
+        if (yield from self._agrees("Save it?")):
             self.result = NorthFound(offset_deg, north.uncertainty_deg)
         else:
             self._say(NOTHING_SAVED)
@@ -238,7 +239,7 @@ class NorthGuide(CompassGuide):
             if chosen_deg is None:
                 raise Abandoned("Left: nothing is changed.")
             angle_deg = min(angles, key=lambda angle: abs(angle - chosen_deg))
-        if not (yield from self._agrees(f"Does it stand at {angle_deg:.1f}°? y or n:")):
+        if not (yield from self._agrees(f"Does it stand at {angle_deg:.1f}°?")):
             raise Abandoned("Left: nothing is changed.")
         yield from self._confirm(angle_deg)
         if self._axis.angle_deg is not None:

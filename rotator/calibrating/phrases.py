@@ -79,13 +79,39 @@ class Phrases:
     )
     turn_plus = _Sentence("Press {plus_key} ({plus}) and watch the antenna.")
     turn_minus = _Sentence("Now back: press {minus_key} ({minus}).")
+    page_turn_plus = _Sentence("Turn it {plus}.")
+    page_turn_minus = _Sentence("Now turn it back, {minus}.")
+    page_direction_check = _Lines(
+        "The antenna should be in the middle of its travel, away from both stops. Hold the button until you have "
+        "clearly seen which way it goes.",
+    )
+    page_low_end = _Sentence("Turn it to its {low_end}.")
+    page_high_end = _Sentence("Turn it to its {high_end}.")
+    page_end = _Lines("To its stop, or to a mark you trust. Just before the stop is better than hard against it.")
+    page_between = _Lines(
+        "Only if the pot is not straight: turn it to an angle that you know, as many as you like. Come to each from "
+        "the same side: then the gear's play does not count.",
+    )
+    directions_right = _Sentence("Its buttons turn it the right way, {plus} and {minus}.")
+    no_ends = _Sentence("The {axis} has no ends: it may be sent all the way round.")
+    page_limit = _Lines(
+        "A degree or two before its stop, or earlier, where cables, guy wires or a chimney are in the way."
+    )
+    page_homing = _Lines(
+        "It turns {minus} to its stop, a little back, and there again. The box cannot tell a stop from a branch that "
+        "the antenna hangs in; you can: watch it.",
+    )
+    page_stopwatch = _Lines(
+        "The box turns the {axis} from stop to stop, and you press when it has arrived and stands there. The rotor's "
+        "own end switches must work.",
+    )
     press_first = _Sentence("Turn it first: {plus_key} is {plus}, {minus_key} is {minus}.")
     drive_then_read = _Sentence(
         "Drive there with {plus_key} ({plus}) and {minus_key} ({minus}); then Enter reads it.",
         "b takes the last point back.",
     )
-    did_it_turn = _Sentence("Did the antenna turn {seen}? y or n:")
-    did_it_turn_back = _Sentence("Did it turn back, {minus}? y or n:")
+    did_it_turn = _Sentence("Did the antenna turn {seen}?")
+    did_it_turn_back = _Sentence("Did it turn back, {minus}?")
     swap = _Sentence(
         "Then swap {plus_relay} and {minus_relay} in [relays] of the file (or the two wires), and begin again.",
         "Nothing is saved.",
@@ -113,6 +139,9 @@ class Phrases:
         "if it was still on its way, the rotor is slower than the file says: write a smaller {axis}.speed_dps,",
         "take the times out, and begin again.",
     )
+    page_to_low_stop = _Sentence("First it turns {minus}, to its stop. This way is not timed.")
+    page_time_to_high = _Sentence("Now it turns {plus}, to its other stop, and the watch runs.")
+    page_time_to_low = _Sentence("And back, {minus}, with the watch.")
     to_low_end = _Lines(
         "2. The {low_end}. Drive it there with {minus_key} ({minus}): to its stop, or to a mark you trust.",
         "   Just before the stop is better than hard against it.",
@@ -132,6 +161,15 @@ class Phrases:
 
     def worded(self, text: str) -> str:
         return text.format_map(self._words)
+
+    def timed(self, times_s: tuple[float, float]) -> tuple[str, str]:
+        return (
+            self.worded(f"From stop to stop it takes {times_s[0]:g} s {{plus}} and {times_s[1]:g} s {{minus}}."),
+            "Its angle is reckoned by these times, so it drifts with wind and cold: home it now and then.",
+        )
+
+    def may_be_sent(self, low_deg: float, high_deg: float) -> str:
+        return self.worded(f"The {{axis}} may be sent to angles from {low_deg:g}° to {high_deg:g}°.")
 
     def turned_wrong(self, remedy: str) -> str:
         """What to change when the antenna turned the other way; an empty `remedy` means the relays."""

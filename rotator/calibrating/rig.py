@@ -34,6 +34,7 @@ from rotator.calibrating.table_guide import TableGuide
 from rotator.config.model import Config
 from rotator.control.controller import Controller
 from rotator.exchange.sources import Source
+from rotator.exchange.status import AxisStatus
 from rotator.runtime.loop import ControlLoop
 from rotator.store.compass import KeptCompass
 from rotator.store.state import State
@@ -169,14 +170,25 @@ def step(guide: Guide, loop: ControlLoop, entry: Entry | None) -> tuple[str, ...
 
 def picture(guide: AxisGuide, loop: ControlLoop) -> tuple[str, bool]:
     """The reading and the direction in one line, and whether the axis is driven."""
+    axis = loop.status.axis(guide.facts.axis)
+    return f"reading {reading(guide, axis)}  {doing(guide, axis)}".rstrip(), bool(axis.drive)
+
+
+def reading(guide: AxisGuide, axis: AxisStatus) -> str:
     facts = guide.facts
-    axis = loop.status.axis(facts.axis)
-    reading = "----" if axis.raw is None else guide.reading_text(axis.raw)
-    if axis.raw is not None and not facts.lowest_reading <= axis.raw <= facts.highest_reading:
-        reading += f", which no whole sensor reads: {facts.lowest_reading:g} to {facts.highest_reading:g}"
-    direction = "  it waits, and looks whether the axis stands" if axis.waiting else ""
-    direction = f"  {guide.direction_text(axis.drive)}" if axis.drive else direction
-    return f"reading {reading}{direction}", bool(axis.drive)
+    if axis.raw is None:
+        return "----"
+    if facts.lowest_reading <= axis.raw <= facts.highest_reading:
+        return guide.reading_text(axis.raw)
+    no_sensor = f"which no whole sensor reads: {facts.lowest_reading:g} to {facts.highest_reading:g}"
+    return f"{guide.reading_text(axis.raw)}, {no_sensor}"
+
+
+def doing(guide: AxisGuide, axis: AxisStatus) -> str:
+    """The way that the motor turns; empty: it stands."""
+    if axis.drive:
+        return guide.direction_text(axis.drive)
+    return "it waits, and looks whether the axis stands" if axis.waiting else ""
 
 
 def axis_facts(config: Config, axis: Axis) -> AxisFacts:
@@ -192,6 +204,11 @@ def axis_facts(config: Config, axis: Axis) -> AxisFacts:
         unit=DEGREES,
         settle_s=traits.settle_s,
     )
+
+
+def page_guide(config: Config, axis: Axis) -> AxisGuide:
+    """On the page a compass that has not learnt its iron does that first. Raises HardwareError as `axis_guide`."""
+    return axis_guide(config, axis) if config.axis(axis).sensor.learnt else FieldGuide(axis_facts(config, axis))
 
 
 def axis_guide(config: Config, axis: Axis) -> AxisGuide:

@@ -71,7 +71,7 @@ class SkyGuide(SteeringGuide):
         yield
         yield from self._await_axes()
         self._check_axes()
-        if not (yield from self._agrees(f"It is {self._seen.moment} by this box's clock. To the second? y or n:")):
+        if not (yield from self._agrees(f"It is {self._seen.moment} by this box's clock. To the second?")):
             raise Abandoned("Then set the clock first: a wrong time is a wrong direction. Nothing is saved.")
         self._check_up()
         if self._facts.points:
@@ -115,7 +115,7 @@ class SkyGuide(SteeringGuide):
 
     def _earlier(self) -> Steps:
         count = len(self._facts.points)
-        if (yield from self._agrees(f"The file has {count} point{'s' if count > 1 else ''}. Keep them? y or n:")):
+        if (yield from self._agrees(f"The file has {count} point{'s' if count > 1 else ''}. Keep them?")):
             self.points += self._facts.points
 
     # --- points
@@ -223,7 +223,7 @@ class SkyGuide(SteeringGuide):
             f"It points {fit.before_deg:.2f}° off now, and {fit.rms_deg:.2f}° with the new terms (rms)."
             f"{found_text(fit)}",
         )
-        if (yield from self._agrees("Save it? y or n:")):
+        if (yield from self._agrees("Save it?")):
             self.result = MountFound(fit.model, self._facts.own_scale(tuple(self.points)))
         else:
             self._say(NOTHING_SAVED)

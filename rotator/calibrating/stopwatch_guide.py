@@ -12,6 +12,7 @@ from hw.ports import Direction
 from rotator.calibrating.degrees_guide import DegreesGuide
 from rotator.calibrating.entries import Entry, StopNow, Word
 from rotator.calibrating.guide import LEFT, NOTHING_SAVED, Abandoned
+from rotator.calibrating.question import HALT, Choice, Question
 from rotator.calibrating.results import AxisCalibrated
 from rotator.exchange.orders import Confirm, Jog
 
@@ -20,7 +21,7 @@ RENEWED_S = 0.5
 PRESS_S = 2.0
 STARTS_S = 5.0
 """A relay closes within this time: a reversal has a pause, and its brake may need one."""
-WAYS = Direction.MINUS, Direction.PLUS, Direction.MINUS
+ARRIVED = Choice("It stands at its stop", "\r")
 LEAST_S, UNLIKE = 5.0, 1.5
 """A way takes longer than that; and one way at most so many times as long as the other."""
 
@@ -38,20 +39,25 @@ class StopwatchGuide(DegreesGuide):
         return not self._measures and super()._readings_count
 
     def _times(self) -> Generator[None, None, bool]:
-        facts = self.facts
-        self._say("", *self._phrases.stopwatch)
-        if not (yield from self._agrees("Measure the times now? y or n:")):
+        facts, words = self.facts, self._phrases
+        self._lead("", *self._phrases.stopwatch)
+        hint = self._phrases.page_stopwatch
+        self.stage = "End stop"
+        if not (yield from self._agrees("Measure the times now?", "times", hint, yes="Measure them", no="Not now")):
             return False
+        self.stages, self.stage = ("Directions", "Times", "Save"), "Times"
         self._measures = True
         while (times_s := (yield from self._three_ways())) is None:
             self._say("", "Once more, from the low stop.")
         # It ends at the low stop.
         self._orders.append(Confirm(facts.axis, facts.least_deg + self._traits.shift_deg))
         limits = f"limits {facts.min_deg:g} to {facts.max_deg:g} as in the file"
-        self._say(
+        self._lead(
             "", f"[timed.{facts.axis.value}]: {times_s[0]:g} s and {times_s[1]:g} s; {limits}, direction checked."
         )
-        if (yield from self._agrees("Save this? y or n:")):
+        self.stage = "Save"
+        learnt = *words.timed(times_s), words.may_be_sent(facts.min_deg, facts.max_deg)
+        if (yield from self._agrees("Save this?", "save", learnt, yes="Save it", no="Leave, save nothing")):
             self.result = AxisCalibrated(facts.axis, None, facts.min_deg, facts.max_deg, times_s)
         else:
             self._say(NOTHING_SAVED)
@@ -61,9 +67,15 @@ class StopwatchGuide(DegreesGuide):
         """The times up and down; None: stopped, or not likely. Raises Abandoned."""
         took_s: list[float] = []
         words = self._phrases
-        for direction, text in zip(WAYS, (words.to_low_stop, words.time_to_high, words.time_to_low), strict=True):
-            self._say("", text)
-            if not (yield from self._agrees("y: the motor starts; n: leave.")):
+        for direction, text, page in (
+            (Direction.MINUS, words.to_low_stop, words.page_to_low_stop),
+            (Direction.PLUS, words.time_to_high, words.page_time_to_high),
+            (Direction.MINUS, words.time_to_low, words.page_time_to_low),
+        ):
+            self._lead("", text)
+            picture = "minus" if direction is Direction.MINUS else "plus"
+            prompt = "y: the motor starts; n: leave."
+            if not (yield from self._agrees(page, picture, yes="Start the motor", no="Leave", prompt=prompt)):
                 raise Abandoned(LEFT)
             way_s = yield from self._timed(direction)
             fault = self._fault_text  # a stop acknowledges it
@@ -84,7 +96,9 @@ class StopwatchGuide(DegreesGuide):
 
     def _timed(self, direction: Direction) -> Generator[None, None, float | None]:
         """How long the motor has run when the person presses Enter; None: it was stopped, or has stopped."""
-        self.prompt = "Enter: it stands at its stop. s: stop the motor."
+        picture = "low" if direction is Direction.MINUS else "high"
+        page = Question("Press when it stands at its stop.", picture=picture, choices=(ARRIVED, HALT))
+        self._show("Enter: it stands at its stop. s: stop the motor.", page)
         ordered_s, asked_s, began_s = -RENEWED_S, self._now_s, None
         self._timing = self._asking = True
         try:
@@ -94,6 +108,7 @@ class StopwatchGuide(DegreesGuide):
                     self._orders.append(Jog(self.facts.axis, direction, PRESS_S))
                 yield
                 runs = self._axis.drive is direction
+                self.runs_s = None if began_s is None else self._now_s - began_s
                 if self._entry is Word.ENTER and began_s is not None:
                     return self._now_s - began_s
                 if isinstance(self._entry, StopNow) or self._fault_text:
@@ -107,3 +122,4 @@ class StopwatchGuide(DegreesGuide):
                     return None
         finally:
             self._timing = self._asking = False
+            self.runs_s = None

@@ -85,6 +85,23 @@ class TableDraft:
         line = PiecewiseLinear(tuple((at.angle_deg, at.raw) for at in self.points))
         return point.angle_deg - line.inverse(point.raw)
 
+    def learnt(self, lowest: float, highest: float) -> tuple[str, ...]:
+        """What the points say of the sensor, in sentences for a person."""
+        low, high = self.points[0], self.points[-1]
+        bent_deg = max(abs(self.off_line_deg(point)) for point in self.points)
+        noise_deg = max(point.measured.noise for point in self.points) * self.deg_per_raw
+        raws = [point.raw for point in self.points]
+        told = [
+            f"From {low.angle_deg:g}° to {high.angle_deg:g}° it reads {low.raw:.4f} to {high.raw:.4f}.",
+            "It is taken for straight between its ends: nothing was read there."
+            if len(self.points) == len((low, high))
+            else f"It is up to {bent_deg:.1f}° off a straight line: the points between correct that.",
+            f"One reading is sure to {noise_deg:.2f}° (rms).",
+        ]
+        if min(min(raws) - lowest, highest - max(raws)) < LEAST_MARGIN:
+            told.append("It reads almost to the end of its scale: some drift would be taken for a broken wire.")
+        return tuple(told)
+
     def lines(self, supply_v: float | None, lowest: float, highest: float) -> list[str]:
         """The table as text, with the distance of its ends from the readings that count as a fault.
 

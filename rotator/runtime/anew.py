@@ -7,8 +7,9 @@ Knows the latched stop and the person's hold that go on, and which file is next.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 from hw.ports import Axis
 from rotator.exchange.sources import Source
@@ -32,8 +33,8 @@ class Anew:
         """The axis to calibrate after this start. None: a normal run."""
         self.refused = ""
         """Why the file of the latest start could not be used. The file before it is in place again."""
-        self.calibration_lines: tuple[str, ...] = ()
-        """The last message of the calibration that ended with the latest start."""
+        self.calibrated: Mapping[str, Any] | None = None
+        """What came of the calibration that ended with the latest start."""
         self.again = False
         """The box has been started anew, by the page: it must come back with its page."""
 

@@ -10,7 +10,7 @@ import asyncio
 from collections import deque
 from collections.abc import Callable, Coroutine, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from aiohttp import web
 
@@ -37,6 +37,9 @@ from rotator.web.route import FREE, MOST_BODY, PAIRED, READING, Handler, Route, 
 from rotator.web.scene import FlightPath, Scene
 from rotator.web.schema import component
 
+if TYPE_CHECKING:
+    from rotator.calibrating.on_page import PageCalibration
+
 Group = Callable[[Entrance], Sequence[Route]]
 """Routes that need to know the sender."""
 
@@ -56,6 +59,8 @@ class PageParts:
     reading_open: bool
     utc: Callable[[], float]
     """Seconds since 1970."""
+    calibration: PageCalibration | None
+    """It takes the button that a person holds, for its axis; None: a normal run."""
     groups: Sequence[Group] = ()
     """More routes."""
     works: Sequence[Callable[[], Coroutine[Any, Any, None]]] = ()
@@ -149,7 +154,12 @@ class Api:
         def order(jog: Jog) -> str:
             # Ask at each sign: its pairing may have been revoked.
             who = self._entrance.who(request)
-            return self._parts.scene.with_names(self._as(who).do(jog)) if who else "this browser is paired no more"
+            if who is None:
+                return "this browser is paired no more"
+            guide = self._parts.calibration
+            if guide is not None and guide.axis is jog.axis:
+                return guide.hold(jog)
+            return self._parts.scene.with_names(self._as(who).do(jog))
 
         return order
 

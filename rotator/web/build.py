@@ -144,6 +144,7 @@ def build_page(
             doors=Doors([socket.gethostname(), "rotator", host, *config.page.names], config.page.allow),
             reading_open=config.page.reading == "open",
             utc=time.time,
+            calibration=calibration,
             groups=(
                 lambda _entrance: (*plan.routes(), *favourites.routes(), *elements.routes(), *flown.routes()),
                 lambda _entrance: (*SettingsApi(file).routes(), *SettingUpApi(file, calibration).routes()),

@@ -66,12 +66,37 @@ _Program = TypedDict("_Program", {"name": str, "protocols": Sequence[str], "wher
 _Programs = TypedDict("_Programs", {"programs": list[_Program]})
 
 
+_Outcome = TypedDict("_Outcome", {"axis": str, "saved": bool, "said": Sequence[str]})
+_Button = TypedDict("_Button", {"words": str, "keys": Annotated[str, the("to send back")]})
+
+
+class _ToAnswer(TypedDict):
+    title: str
+    hint: Sequence[str]
+    picture: str
+    choices: Sequence[_Button]
+    turns: Annotated[bool, the("a button may be held to turn the axis, as /api/live says")]
+    number: Annotated[bool, the("an angle is an answer: it and \\r are to be sent")]
+    proposed: float | None
+
+
 class _Guide(TypedDict):
-    axis: Annotated[str | None, the("null: nothing is calibrated; the lines are of the last one")]
-    lines: Sequence[str]
-    prompt: NotRequired[str]
-    state: NotRequired[str]
+    axis: Annotated[str | None, the("null: nothing is calibrated")]
+    latest: NotRequired[Annotated[_Outcome | None, the("of the last calibration, where none runs")]]
+    asked: NotRequired[Annotated[int, the("the number of the question")]]
+    question: NotRequired[_ToAnswer]
+    stage: NotRequired[str]
+    step: NotRequired[int]
+    steps: NotRequired[int]
+    remarks: NotRequired[Sequence[str]]
+    points: NotRequired[Annotated[list[list[float]], the("readings, each with its degrees")]]
+    scale: NotRequired[Annotated[list[float], the("the lowest and the highest reading")]]
+    degrees: NotRequired[Annotated[bool, the("the readings are degrees on the rotor's own scale")]]
+    reading: NotRequired[str]
+    doing: NotRequired[str]
+    fault: NotRequired[str]
     turns: NotRequired[Annotated[bool, the("the motor turns: ask each second, or it stops")]]
+    runs_s: NotRequired[Annotated[float | None, the("how long the motor runs that is being timed")]]
 
 
 class _Answered(Sent):
@@ -86,6 +111,7 @@ class _Press(Sent):
     keys: Annotated[
         str, Field(pattern=f"^{_KEYS}$", description="as in `rotator calibrate`: r, l, u, d, y, n, a number …")
     ]
+    asked: NotRequired[Annotated[int, the("the question that is answered: for another one it comes too late")]]
 
 
 _ANSWERED = Body((_Answered, {"answers": {}}))
@@ -144,10 +170,10 @@ class SettingUpApi:
 
     async def _calibrate(self, request: web.Request, sent: _Calibrate) -> Begun:
         axis = Axis(sent["axis"])
-        from rotator.calibrating.rig import axis_guide  # noqa: PLC0415 - the page of a normal run does without it
+        from rotator.calibrating.rig import page_guide  # noqa: PLC0415 - the page of a normal run does without it
 
         try:
-            axis_guide(await self._config(), axis)
+            page_guide(await self._config(), axis)
         except HardwareError as reason:
             raise RefusedError(str(reason)) from None
         self._file.may_stop(sent)
@@ -158,13 +184,13 @@ class SettingUpApi:
 
     def _guide(self, _request: web.Request) -> object:
         if self._calibration is None:
-            return {"axis": None, "lines": self._file.anew.calibration_lines}
+            return {"axis": None, "latest": self._file.anew.calibrated}
         return self._calibration.shown()
 
     def _press(self, _request: web.Request, sent: _Press) -> None:
         if self._calibration is None:
             raise RefusedError("no axis is being calibrated now")
-        self._calibration.press(sent["keys"])
+        self._calibration.press(sent["keys"], sent.get("asked"))
 
     async def _config(self) -> Config:
         config = (await self._file.settings()).config

@@ -1,4 +1,4 @@
-"""A box is set up on the page alone: its settings, its relays one by one, and a calibration to the end."""
+"""A box is set up on the page alone: its settings, its links, its relays one by one."""
 
 from __future__ import annotations
 
@@ -146,16 +146,3 @@ def test_a_program_is_heard_and_its_settings_are_told(start: Start, visit: Visit
     with (station.folder / "gs232").open("r+b", buffering=0) as port:
         port.write(b"C2\r")
         page.locator(".heard", has_text="has just asked for the position: C2").wait_for()
-
-
-def test_a_motor_stops_when_the_browser_of_a_calibration_goes(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    at_setup(page)
-    open_step(page, "Calibrate the azimuth")
-    page.get_by_role("button", name="Calibrate the azimuth").click()
-    page.locator(".prompt", has_text="and watch the antenna").wait_for()
-    page.get_by_role("button", name="CW ▶ 2 s").click()
-    waits_for(page, lambda: station.world().drives == (1, 0))
-    page.context.set_offline(True)
-    waits_for(page, lambda: station.world().drives == (0, 0))

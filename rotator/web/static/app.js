@@ -105,7 +105,7 @@ function Page() {
     ${now && view === "pass" && html`<${PassMode} now=${now} station=${station} hello=${hello} fresh=${fresh} say=${say} />`}
     ${now && helps(view) && html`<${Help} view=${view} now=${now} hello=${hello} onPaired=${() => live.connect()} />`}
     ${now && (view === "setup" || view === "paired") && html`<main>${!hello.paired ? html`<${Pair} onPaired=${() => live.connect()} />`
-      : view === "setup" ? html`<${Setup} now=${now} hello=${hello} station=${station} say=${say} />`
+      : view === "setup" ? html`<${Setup} now=${now} hello=${hello} station=${station} live=${live} fresh=${fresh} say=${say} />`
       : html`<${Paired} hello=${hello} onChange=${() => live.connect()} />`}</main>`}
     ${!now && html`<main class="wait">${locked ? html`<${Pair} locked onPaired=${() => live.connect()} />` : html`<p>Looking for the box …</p>`}</main>`}`;
 }

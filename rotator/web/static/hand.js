@@ -35,7 +35,8 @@ function HeldButton({ live, turn, name, arrow, say }) {
 
 const RELEASES = ["pointerup", "pointercancel", "keyup"];
 
-export function JogPad({ station, live, say }) {
+/** `axes`: which of them; those of the rotor, where none are named. */
+export function JogPad({ station, live, say, axes = fitted(station) }) {
   // The window hears the release wherever the finger is by then, and when the pad goes, so does the hold.
   useEffect(() => {
     const leave = () => live.letGo();
@@ -43,7 +44,7 @@ export function JogPad({ station, live, say }) {
     return () => (RELEASES.forEach((release) => removeEventListener(release, leave)), leave());
   }, []);
   return html`<div class="jogpad" role="group" aria-label="Turn by hand, while a button is held">
-    ${TURNS.filter(([, , , axis]) => station[axis].fitted).map(([turn, name, arrow]) => html`<${HeldButton} key=${turn} live=${live} turn=${turn} name=${name} arrow=${arrow} say=${say} />`)}
+    ${TURNS.filter(([, , , axis]) => axes.includes(axis)).map(([turn, name, arrow]) => html`<${HeldButton} key=${turn} live=${live} turn=${turn} name=${name} arrow=${arrow} say=${say} />`)}
     <p class="hint">hold</p></div>`;
 }
 

@@ -1,6 +1,6 @@
 // Setting up: the steps from a bare box to a calibrated rotor, in one list. Each may be skipped, and done again.
 import { post, read } from "/box.js";
-import { Calibrate } from "/calibrate.js";
+import { Begin, Guide } from "/calibrate.js";
 import { Errands } from "/errands.js";
 import { Asks } from "/hand.js";
 import { Header } from "/header.js";
@@ -109,14 +109,14 @@ function Step({ number, title, done, children }) {
   return html`<details class="step" ref=${self} open=${shown} onToggle=${(event) => show(event.currentTarget.open)}><summary><b>${number}. ${title}</b> <small>${done}</small></summary>${shown && html`<div>${children}</div>`}</details>`;
 }
 
-export function Setup({ now, hello, station, say }) {
+export function Setup({ now, hello, station, live, fresh, say }) {
   const settings = useSettings(say, hello);
   const { file } = settings, made = ready(settings), of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
   const calibrated = (axis) => !now.status[axis].fitted ? "not fitted" : (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
   const missing = html`<${Missing} settings=${settings} />`, known = station.where !== null, begins = useRef(!known).current;
   const placed = made && html`<${Place} ...${of} known=${known} />`;
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
-  return html`<div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
+  return html`<${Guide} now=${now} station=${station} live=${live} fresh=${fresh} settings=${settings} /><div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
     <${NoFile} settings=${settings} moving=${moving} />
     ${begins && made && html`<section class="begin"><h3>Begin here: place and satellites</h3>${placed}${known && !now.clock_known && html`<${Clock} now=${now} say=${say} />`}</section>`}
     <${Step} number="1" title="Which rotor" done=${file?.values.rotor?.type}><${Rotor} ...${of} /><//>
@@ -125,7 +125,7 @@ export function Setup({ now, hello, station, say }) {
     <${Step} number="4" title="Read the sensors">${fitted(now.status).map((axis) => html`<${Sensor} now=${now} axis=${axis} at=${axis === "azimuth" ? 0 : 1} />`)}
       <p class="about">Turn the rotor by hand or by its own box: the reading follows smoothly, and stands with it.</p>${some(["azimuth.sensor", "elevation.sensor", "adc"])}<//>
     ${["azimuth", "elevation"].map((axis, at) => html`<${Step} number=${5 + at} title=${`Calibrate the ${axis}`} done=${calibrated(axis)}>${!now.status[axis].fitted ? html`<p>This rotor has no ${axis}.</p>`
-      : html`${made ? html`<${Calibrate} axis=${axis} settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} />` : missing}<${Errands} now=${now} axes=${[axis]} say=${say} />`}<//>`)}
+      : html`${made ? html`<${Begin} axis=${axis} settings=${settings} moving=${moving} />` : missing}<${Errands} now=${now} axes=${[axis]} say=${say} />`}<//>`)}
     <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount", "mount.forbidden"], ["endless", "min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon", "name", "azimuth_deg", "elevation_deg"])}<//>
     <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}>${!begins && placed}<${Clock} now=${now} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
