@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test style check tests docs reference drills planted scores sectors test-search test-quiet test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings languages languages-check dist deb lock clean
+.PHONY: run test style check tests docs reference drills planted scores sectors test-search test-quiet test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-demo picture-gpredict drawings languages languages-check dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -132,6 +132,10 @@ picture: $(VENV)/.dev
 # The pictures of the page, from the running box itself, in Chromium.
 picture-page: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.page_pictures docs/img
+
+# The film of the README: the demo pass, in simulated time.
+picture-demo: $(VENV)/.dev
+	$(BIN)/python -m docs.film
 
 # Gpredict's window while it tracks with the box: sudo apt install gpredict xvfb xdotool imagemagick
 picture-gpredict: $(VENV)/.dev

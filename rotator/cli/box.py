@@ -7,7 +7,7 @@ its commands must be quick. The box decides whether it obeys.
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -35,10 +35,11 @@ class DoesNotAnswer(CommandFailed):
 
 
 class RunningBox:
-    """One connection to the console. Raises CommandFailed when no box answers; ConfigError."""
+    """One connection to the console; `sockets`: where it may be. Raises CommandFailed when no box answers;
+    ConfigError."""
 
-    def __init__(self, path: Path | None) -> None:
-        self._box = reach(path, consoles)
+    def __init__(self, path: Path | None, sockets: Callable[[Path | None], Sequence[Path]] = consoles) -> None:
+        self._box = reach(path, sockets)
         self._box.settimeout(ANSWER_S)
         self._answers = self._box.makefile(encoding="utf-8", errors="replace", newline="\n")
 

@@ -21,7 +21,8 @@ from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
 from rotator.cli.lines import say
 
 INDENT = len("rotator: ")
-START = """Start here: `rotator run` begins a simulated box; `rotator point 180 45` in another terminal turns it.
+START = """Start here: `rotator demo` flies a pass; `rotator run` begins a simulated box, and `rotator point 180 45` in
+another terminal turns it.
 `rotator COMMAND --help` has an example of each command; `rotator help wiring` prints a page of the documentation."""
 
 
@@ -37,7 +38,7 @@ cli.under("An axis that asks for a person", box.HOME, box.CONFIRM, box.RELAYS_CH
 cli.under("The box", setup.RUN, setup.DOCTOR, setup.MONITOR, box.PAIR, box.TELL, setup.OFF)
 cli.under("The sky", sky.SKY, box.TRACK)
 cli.under("Setting up", setup.SHOW_CONFIG, setup.CALIBRATE, setup.SET_UP)
-cli.under("Without a rotor", sky.REHEARSE, setup.ARDUINO, box.PANEL)
+cli.under("Without a rotor", setup.DEMO, sky.REHEARSE, setup.ARDUINO, box.PANEL)
 
 
 def main(words: Sequence[str] | None = None) -> None:

@@ -13,6 +13,7 @@ import os
 import shutil
 import sys
 import time
+from collections.abc import Callable
 from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO, cast
@@ -28,7 +29,7 @@ from rotator.cli.lines import in_front, wrapped
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.reach import connected
 from rotator.cli.run_keys import NEXT, RunKeys
-from rotator.cli.screen import LogRows, draw, has_ascii_only, keys_to, log_to, print_lines, terminal_console
+from rotator.cli.screen import LOOK_S, LogRows, draw, has_ascii_only, keys_to, log_to, print_lines, terminal_console
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path, runtime_folder
@@ -46,8 +47,13 @@ PAGE_LOOKS = 30
 """The greeting waits so many looks for a page that does not listen yet."""
 
 
-def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
-    """Raises CommandFailed where a box runs already with these sockets."""
+def run_box(
+    path: Path | None, faults: tuple[str, ...], *, plain: bool, errand: Callable[[], str] | None = None
+) -> None:
+    """Raises CommandFailed where a box runs already with these sockets.
+
+    `errand`: done once the box runs, in a thread; the box ends with it, and its sentence is the last one.
+    """
     plain = plain or not draws()
     chosen = chosen_faults(path, faults)
     use_one_heap()
@@ -65,7 +71,7 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
 
         def run(app: App) -> None:
             with nullcontext() if runtime_folder(os.environ) else announced(_monitor(app.config), anew.file):
-                asyncio.run(run_app(app, chosen, screen, None if plain else recent, anew))
+                asyncio.run(run_app(app, chosen, screen, None if plain else recent, anew, errand=errand))
             # The faults of the command line have begun, and a person has seen them.
             chosen.clear()
 
@@ -105,7 +111,13 @@ def make_sure_of(monitor: Path, path: Path | None) -> None:
 
 
 async def run_app(
-    app: App, faults: list[tuple[float, str]], screen: Output, recent: LogRows | None, anew: Anew
+    app: App,
+    faults: list[tuple[float, str]],
+    screen: Output,
+    recent: LogRows | None,
+    anew: Anew,
+    *,
+    errand: Callable[[], str] | None = None,
 ) -> None:
     """Run until a signal or a key ends it, or until the page wants it to start anew.
 
@@ -127,6 +139,7 @@ async def run_app(
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"
         events.call_later(at_s, app.station.world.inject, name)
+    work = asyncio.create_task(_errand(app, errand, stop)) if errand else None
     watcher = asyncio.create_task(_plain(app, stop, screen) if recent is None else _picture(app, stop, screen, recent))
     try:
         with SignalThread(ended_by_signal):
@@ -136,7 +149,18 @@ async def run_app(
         await asyncio.gather(watcher, return_exceptions=True)
     # Below the terminal as it was before the picture.
     last = "The page starts the box anew." if anew.asked else plain_lines.farewell(app.loop.status)
-    screen.write(f"{wrapped(last, shutil.get_terminal_size().columns, 0) if screen.isatty() else last}\n")
+    for text in (last, *([await work] if work else [])):
+        screen.write(f"{wrapped(text, shutil.get_terminal_size().columns, 0) if screen.isatty() else text}\n")
+
+
+async def _errand(app: App, errand: Callable[[], str], stop: asyncio.Event) -> str:
+    try:
+        while not app.is_ready:
+            await asyncio.sleep(LOOK_S)
+        await asyncio.sleep(LOOK_S)  # its console listens a moment later
+        return await asyncio.to_thread(errand)
+    finally:
+        stop.set()
 
 
 async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:

@@ -35,6 +35,20 @@ RUN = command(
     """,
     examples=["rotator run", "rotator run --config station.toml", "rotator run --fault azimuth-pot-open@20"],
 )
+DEMO = command(
+    "demo",
+    "demo:demo",
+    CONFIG,
+    PLAIN,
+    Option(["--life"], is_flag=True, help="As fast as in life: the pass takes ten minutes."),
+    says="""Fly a pass of the ISS on a simulated rotor.
+
+    It needs no place and no elements: the pass is one over your continent, by the time zone, ten times as fast as
+    life. The simulated box of this folder flies it, or one that ends with the pass. The last line names the picture of
+    the flown pass. A real rotor is never moved.
+    """,
+    examples=["rotator demo", "rotator demo --life"],
+)
 ARDUINO = command(
     "arduino",
     "arduino:run_arduino",
