@@ -33,6 +33,7 @@ from rotator.config.kinds.stepper import Stepper, StepperKind
 from rotator.config.links import Link, follows_itself, needs_station, places_twice
 from rotator.config.mount import MountTable
 from rotator.config.mqtt import MqttTable
+from rotator.config.notify import NotifyTable
 from rotator.config.page import PageTable
 from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.places import STATE
@@ -85,6 +86,8 @@ class Config(Table):
     """The monitor of the bytes on the links."""
     mqtt: MqttTable = MqttTable.model_construct()
     """A broker of messages, for Home Assistant and the like; needs the extra `mqtt`."""
+    notify: NotifyTable = NotifyTable.model_construct()
+    """Notices for a person who does not look at the box, posted to an address: ntfy, a home's hub, a chat."""
     page: PageTable = PageTable.model_construct()
     """The page for a browser, and its API. Moving the antenna there needs pairing: `rotator pair`."""
     pulses: Pulses = Pulses.model_construct()

@@ -46,7 +46,7 @@ class SkyTable(Table):
     @classmethod
     def _addresses(cls, texts: list[str]) -> list[str]:
         for number, text in enumerate(texts):
-            if not _is_address(text):
+            if not is_address(text):
                 raise ValueError(f'"{text}" must be an address such as "https://HOST/elements.json"')
             if text in texts[:number]:
                 raise ValueError(f'"{text}" stands there twice: take one out')
@@ -70,7 +70,7 @@ class SkyTable(Table):
                 yield f'follow[{number}] names "{self.follow[number].name}", as follow[{first}] does: take one out'
 
 
-def _is_address(text: str) -> bool:
+def is_address(text: str) -> bool:
     """Whether the text is a whole address of http or https, as a request can hold it."""
     try:
         parts = urlsplit(text)

@@ -73,6 +73,8 @@ class Follower:
         """Why no pass is flown now, if no other display tells it; empty: a pass is flown, or there is no plan."""
         self._again_utc_s = 0.0
         """When to plan next."""
+        self.upcoming: tuple[str, float] | None = None
+        """The next pass of the plan, and when it rises, in seconds since 1970; None: none is known."""
         self._changed = False
         self._flown: Flown | None = None
         self._lock = threading.Lock()
@@ -100,7 +102,7 @@ class Follower:
         status = self._box.status()
         self.rest = self._why_at_rest(now)
         if not self._may_fly(status, now):
-            self._flown, self._again_utc_s = None, now.utc_s
+            self._flown, self._again_utc_s, self.upcoming = None, now.utc_s, None
             return
         if self._flown is not None:
             if reason := self._flown.lost(status, now):
@@ -158,6 +160,7 @@ class Follower:
             log.warning("the plan of many passes could not be made: %s", reason)
             self._again_utc_s = now.utc_s + FAILED_S
             return
+        self.upcoming = (upcoming.name, upcoming.rises_utc_s) if upcoming else None
         if upcoming is None:
             return
         self._again_utc_s = min(self._again_utc_s, upcoming.set_off_utc_s)

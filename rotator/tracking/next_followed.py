@@ -36,6 +36,9 @@ class Upcoming:
 
     set_off_utc_s: float
     flight: NextFlight | None
+    name: str = ""
+    rises_utc_s: float = 0.0
+    """When the pass begins, or the part of it that is flown."""
 
 
 def next_followed(followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
@@ -48,8 +51,7 @@ def next_followed(followed: tuple[WantedOften, ...], antenna: Antenna, now: Now)
         return None
     set_off_s, found, flight = min(flights, key=lambda each: each[0])
     if set_off_s > now.utc_s + SOON_S:
-        return Upcoming(set_off_s, None)
+        return Upcoming(set_off_s, None, found.name, flight.begin_s)
     span_s = flight.begin_s, min(flight.end_s, flight.begin_s + LONGEST_S)
-    return Upcoming(
-        set_off_s, flight_between(targets[found.name], found, span_s, antenna, now, begin_on=flight.begin_on)
-    )
+    order = flight_between(targets[found.name], found, span_s, antenna, now, begin_on=flight.begin_on)
+    return Upcoming(set_off_s, order, found.name, flight.begin_s)

@@ -89,6 +89,10 @@ class TrackingThread:
         """From any thread: as `KnownSky.elements`."""
         return self.sky.elements
 
+    def upcoming(self) -> tuple[str, float] | None:
+        """From any thread: as `Follower.upcoming`."""
+        return self._follower.upcoming
+
     def plan_again(self) -> None:
         """From any thread: make the plan of many passes again. The present pass is flown to its end."""
         self._follower.plan_again()

@@ -99,6 +99,7 @@ def build_page(
         # Slow to load; this function runs in the page's thread.
         from rotator.web.api import PageParts  # noqa: PLC0415
         from rotator.web.box_file import BoxFile  # noqa: PLC0415
+        from rotator.web.calendar import PlanCalendar  # noqa: PLC0415
         from rotator.web.elements import ElementFiles  # noqa: PLC0415
         from rotator.web.entrance import Doors  # noqa: PLC0415
         from rotator.web.favourites import FavouritesApi  # noqa: PLC0415
@@ -111,23 +112,25 @@ def build_page(
         file = BoxFile(path, anew, lambda: loop.status)
         site = build_site(config.station)
         place = (site.latitude_deg, site.longitude_deg) if site else None
-        tolerances_deg = config.azimuth.tolerance_deg, config.elevation.tolerance_deg
         passes = Passes(command(path) if path and site else None, time.monotonic, tracking.known_elements)
+        calendar = PlanCalendar(path if site and config.sky.follow else None, time.monotonic)
 
         def plan_again() -> None:
             passes.forget()
+            calendar.forget()
             tracking.plan_again()
 
         def read_again() -> None:
             passes.forget()
+            calendar.forget()
             tracking.read_again()
 
         plan = Plan(config.sky.follow, tracking.sky, tracking.priorities, passes, changed=plan_again, utc=time.time)
         favourites = FavouritesApi(tracking.favourites, tracking.sky)
         uploads, fetches = Uploads(uploaded_folder(config)), fetches_file(config)
         elements = ElementFiles(tracking.sky, uploads, fetches, config.sky.fetch, changed=read_again, utc=time.time)
-        kept = FlownPasses(Path(config.state.path).parent)
-        flown = FlownPictures(kept, recorder, mount, lambda: loop.status, time.time)
+        folder = Path(config.state.path).parent
+        flown = FlownPictures(FlownPasses(folder), recorder, mount, lambda: loop.status, time.time)
         return PageParts(
             status=lambda: loop.status,
             client=lambda source: Client(loop, mount, source),
@@ -135,7 +138,7 @@ def build_page(
             station=Station(
                 mount,
                 config.station.beam_deg,
-                tolerances_deg,
+                (config.azimuth.tolerance_deg, config.elevation.tolerance_deg),
                 place,
             ),
             scene=scene,
@@ -146,13 +149,14 @@ def build_page(
             utc=time.time,
             calibration=calibration,
             groups=(
-                lambda _entrance: (*plan.routes(), *favourites.routes(), *elements.routes(), *flown.routes()),
+                lambda _entrance: (*plan.routes(), *calendar.routes(), *favourites.routes()),
+                lambda _entrance: (*elements.routes(), *flown.routes()),
                 lambda _entrance: (*SettingsApi(file).routes(), *SettingUpApi(file, calibration).routes()),
                 *help_groups(config, file, place, pairings=pairings, lines=lines, wires=wire_log),
             ),
             works=(flown.run,),
             language=config.page.language,
-            closes=(passes.close, elements.close),
+            closes=(passes.close, calendar.close, elements.close),
         )
 
     rivals = (counted("link", at) for at, each in enumerate(config.link) if each.tcp and address(each.tcp)[1] == port)

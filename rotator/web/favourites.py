@@ -21,7 +21,7 @@ from rotator.web.entrance import RefusedError
 from rotator.web.route import PAIRED, Route, get, post, refusals
 from rotator.web.schema import Body, Sent, the
 
-MOST_BODY = 32_768
+LONGEST_LIST = 32_768
 OTHER_WORDS = ("park", "plan")
 """Targets that are no place in the sky."""
 
@@ -52,20 +52,19 @@ class FavouritesApi:
         self._sky = sky
 
     def routes(self) -> Sequence[Route]:
-        one_at_a_time = asyncio.Lock()
-
         async def change(_request: web.Request, sent: _Change) -> _List:
-            async with one_at_a_time:
-                if sent["before"] != self._all():
-                    raise RefusedError("another browser has changed the favourites meanwhile: try it once more", 412)
-                await asyncio.to_thread(self._change, [_read(each) for each in sent["favourites"]])
-                return {"favourites": self._all()}
+            if sent["before"] != self._all():
+                raise RefusedError("another browser has changed the favourites meanwhile: try it once more", 412)
+            await asyncio.to_thread(self._change, [_read(each) for each in sent["favourites"]])
+            return {"favourites": self._all()}
 
         listed, replaced = "The favourites, in the order of their buttons", "Other favourites, or another order of them"
         return (
             # They name a person's places.
             get("/api/favourites", lambda _: {"favourites": self._all()}, (listed, _List), access=PAIRED),
-            post("/api/favourites", change, replaced, _CHANGE, answer=_List, most_body=MOST_BODY, more=refusals(412)),
+            post(
+                "/api/favourites", change, replaced, _CHANGE, answer=_List, most_body=LONGEST_LIST, more=refusals(412)
+            ),
         )
 
     def _all(self) -> list[_Favourite]:
@@ -74,15 +73,21 @@ class FavouritesApi:
     def _change(self, favourites: Sequence[Favourite]) -> None:
         # A satellite whose elements are gone stays a favourite; nobody adds one that the box has never known.
         known = {each.target for each in self._kept.all} | set(OTHER_WORDS)
-        if wrong := mistake(favourites):
-            raise WrongValuesError(wrong)
+        wrong = mistake(favourites)
         for each in favourites:
-            try:
-                _ = each.target in known or self._sky.find(each.target)
-            except (Unknown, NotThere) as reason:
-                raise WrongValuesError(str(reason)) from None
+            wrong = wrong or (self._unknown(each.target) if each.target not in known else "")
+        if wrong:
+            raise WrongValuesError(wrong)
         if not self._kept.change(favourites):
             raise RefusedError("the favourites count, but they cannot be kept: the log tells why")
+
+    def _unknown(self, target: str) -> str:
+        """Why the box points at no such thing; empty: it does."""
+        try:
+            self._sky.find(target)
+        except (Unknown, NotThere) as reason:
+            return str(reason)
+        return ""
 
 
 def _read(sent: _Favourite) -> Favourite:

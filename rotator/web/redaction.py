@@ -70,8 +70,9 @@ def secrets_of(model: BaseModel) -> set[str]:
     found: set[str] = set()
     for text, is_secret in _texts(model):
         if is_secret:
-            found.add(text)
-        elif "://" in text:
+            # The path of an address that is one may be a word, such as a topic.
+            found |= {text, *text.partition("://")[2].split("/")[1:]}
+        if "://" in text:
             found |= set(_parts(text))
     return {text for text in found if len(text) >= SHORTEST}
 

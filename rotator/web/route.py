@@ -34,6 +34,7 @@ REFUSALS: Mapping[int, str] = {
     412: "it has changed since the picture that the request names",
     413: "the body is too long",
     422: "the file that was sent has a mistake",
+    503: "it is not computed yet: ask again",
 }
 """An answer with one of these status codes has an `error`."""
 

@@ -25,6 +25,7 @@ Of = TypeVar("Of")
 ZIP: Schema = {"contentMediaType": "application/zip"}
 SVG: Schema = {"contentMediaType": "image/svg+xml"}
 ELEMENTS: Schema = {"contentMediaType": "text/plain"}
+ICS: Schema = {"contentMediaType": "text/calendar"}
 TABLE: Schema = {"contentMediaType": "text/csv"}
 """Files, not JSON."""
 _COMPONENT = "component"

@@ -27,6 +27,7 @@ FOR_ALL = {"get me", "get openapi.json", "post pair/begin", "post pair", "post s
 FOR_READERS = {
     *("get status", "get box", "get past", "get path", "get live", "get passes", "get next", "get followed"),
     *("get elements", "get flown", "get flown/picture", "get flown/table", "get doctor", "post demo"),
+    "get passes.ics",
 }
 """All else needs a token: who orders, changes, or sees names, bytes and the file."""
 
@@ -43,7 +44,7 @@ async def asked(box: Box, way: str, path: str, **more: Any) -> tuple[int, str, b
         while True:
             async with box.http.request(way, f"{box.url}{path}", **more) as answer:
                 found = answer.status, answer.content_type, await answer.read()
-            if found[0] != 202:
+            if found[0] not in (202, 503):
                 return found
             await asyncio.sleep(0.05)
 
@@ -63,7 +64,7 @@ async def test_every_answer_is_as_described(page_box: Start, file: Path, tmp_pat
             query = {"file": flown.file} if path.startswith("/api/flown/") else {}
             found = await asked(box, "GET", path, params=query)
             is_socket = "101" in one["responses"]
-            computed = "202" in one["responses"] and not more
+            computed = not {"202", "503"}.isdisjoint(one["responses"]) and not more
             assert found[0] == 400 if is_socket else found[0] == 200 or (computed and found[0] == 409), (
                 path,
                 found,

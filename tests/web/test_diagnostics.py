@@ -98,6 +98,14 @@ def password_of_the_broker(put: Planting, secret: str) -> None:
     put.log += [f"mqtt: box cannot log in with {secret}"]
 
 
+def address_of_notices(put: Planting, secret: str) -> None:
+    """A topic of ntfy is its own password, and may be short."""
+    if "[notify]" in put.toml:
+        return
+    put.toml += f'[notify]\nurl = "https://ntfy.example/{secret}"\n'
+    put.log += [f"notify: {secret} is refused", f"https://ntfy.example/{secret}"]
+
+
 def header(put: Planting, secret: str) -> None:
     put.log += [f"Authorization: Bearer {secret}", f"sent Bearer {secret} twice", f"Cookie: a=1; rotator={secret}"]
 
@@ -112,7 +120,10 @@ def wire(put: Planting, secret: str) -> None:
     put.wires += [encode_piece(datetime(2026, 11, 23), Source("gs232b", 1), Way.IN, data)]
 
 
-PLACES = (comment, key_of_a_server, step_of_an_address, password_of_a_port, password_of_the_broker, header, named, wire)
+PLACES = (
+    *(comment, key_of_a_server, step_of_an_address, password_of_a_port, password_of_the_broker),
+    *(address_of_notices, header, named, wire),
+)
 
 
 def members(packed: bytes) -> dict[str, str]:

@@ -7,6 +7,7 @@ import { Errands } from "/errands.js";
 import { Asks, directionOf, JogPad, Target, ThereFromSky, Track } from "/hand.js";
 import { Favourites } from "/favourites.js";
 import { Help, helps } from "/help.js";
+import { Notices } from "/notices.js";
 import { Pair, Paired } from "/pairing.js";
 import { PassMode } from "/pass.js";
 import { Passes } from "/passes.js";
@@ -102,6 +103,7 @@ function Page() {
     ${now && html`<${Strip} now=${now} paired=${hello.paired} fresh=${fresh} beside=${view === ""} said=${said} say=${say} />`}
     ${now && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}
     ${now && view === "sky" && html`<main><${Passes} now=${now} station=${station} hello=${hello} say=${say} /></main>`}
+    ${now && html`<${Notices} now=${now} shown=${view === "sky"} />`}
     ${now && view === "pass" && html`<${PassMode} now=${now} station=${station} hello=${hello} fresh=${fresh} say=${say} />`}
     ${now && helps(view) && html`<${Help} view=${view} now=${now} hello=${hello} onPaired=${() => live.connect()} />`}
     ${now && (view === "setup" || view === "paired") && html`<main>${!hello.paired ? html`<${Pair} onPaired=${() => live.connect()} />`

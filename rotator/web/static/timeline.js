@@ -60,21 +60,17 @@ function Bar({ pass, begin, chosen, reached, onChoose, onKey, onGrab }) {
 
 /** What is known of a pass, and what one may do with it. */
 function Chosen({ pass, rivals, paired, tracked, onFly, say }) {
-  const [kept, setKept] = useState("");
   return html`<div class="chosen"><p role="status"><b>${pass.name}</b> ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${pass.aos_az_deg == null ? "" : `, from ${Math.round(pass.aos_az_deg)}°`}${pass.los_az_deg == null ? "" : ` to ${Math.round(pass.los_az_deg)}°`}. ${pass.plan ? html`<span class=${state(pass)}>In the plan: ${how(pass.plan)}.</span>` : "Not in the plan."}</p>
     ${paired && html`<div class="chips"><button type="button" aria-pressed=${tracked} onClick=${() => act(post("track", { target: pass.name }), say)}>${tracked ? `${pass.name} is tracked` : `Track ${pass.name}`}</button>
-      <button type="button" disabled=${kept === pass.name} onClick=${() => act(keep(pass.name.slice(0, 30), pass.name).then(() => setKept(pass.name)), say)}>${kept === pass.name ? "Kept as a favourite" : "Keep as a favourite"}</button>
-      ${rivals.map((name) => html`<button type="button" key=${name} onClick=${() => onFly(name)}>${isCut(pass) ? `Fly it rather than ${name}` : `Rather fly ${name}`}</button>`)}</div>`}</div>`;
+      <button type="button" onClick=${() => act(keep(pass.name.slice(0, 30), pass.name), say)}>Keep as a favourite</button>
+      ${rivals.map((name) => html`<button type="button" key=${name} onClick=${() => onFly(name)}>${pass.plan.flown ? `Rather fly ${name}` : `Fly it rather than ${name}`}</button>`)}</div>`}</div>`;
 }
 
-/** Whether the plan leaves out the pass, or a part of it. */
-const isCut = ({ plan }) => !plan.flown || Boolean(plan.reason);
-
-/** Those that are up at the same time: what the plan flies, where it cuts this one; what it cuts, where it flies this one. */
+/** Those of the plan that are up at the same time, and flown where this one is left out, or left out where it is flown. */
 function rivalsOf(pass, passes) {
   if (!pass.plan) return [];
   const from = (each) => (each.aos ? new Date(each.aos) : 0), until = (each) => (each.los ? new Date(each.los) : Infinity);
-  const beside = passes.filter((each) => each.plan && each.name !== pass.name && (isCut(pass) ? each.plan.flown : isCut(each)) && from(each) < until(pass) && until(each) > from(pass));
+  const beside = passes.filter((each) => each.plan && each.plan.flown !== pass.plan.flown && each.name !== pass.name && from(each) < until(pass) && until(each) > from(pass));
   return [...new Set(beside.map((each) => each.name))];
 }
 
@@ -107,10 +103,10 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
   const prefer = (better, worse) => {
     const from = followed.findIndex((one) => one.target === better), to = followed.findIndex((one) => one.target === worse);
     if (from > to) place(from, to);
-    else tell(`${better} counts more already, and the plan still prefers ${worse}. A higher priority in the file may change that.`);
+    else tell(`${better} counts more already`);
   };
   const asWritten = () => (setUndo({ order: followed.map((one) => one.name), says: "the file's order" }), send(null));
-  const takeBack = () => (send(undo.order), tell(""), setUndo(null));
+  const takeBack = () => (send(undo.order), tell("taken back"), setUndo(null));
   const grab = (event, from) => paired && drag(event, () => [...list.current.children].slice(0, followed.length), followed, from,
     (order, one) => (show(order), setDragged(one)), (order, to) => change(followed, order, nowAt(followed[from], to)));
   /** One bar is reached by Tab, the others from it by the arrows: in time, and to the nearest in the next row. */
@@ -141,9 +137,9 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
     </div></div>`}
     ${every.length > most && html`<p><button type="button" aria-expanded=${all} onClick=${() => showAll(!all)}>${all ? "Fewer satellites" : `${every.length - most} more satellites`}</button></p>`}
     ${pass ? html`<${Chosen} pass=${pass} rivals=${rivalsOf(pass, passes)} paired=${paired} tracked=${now.status.tracks?.name === pass.name} say=${say}
-      onFly=${(name) => (isCut(pass) ? prefer(pass.name, name) : prefer(name, pass.name))} />`
+      onFly=${(name) => (pass.plan.flown ? prefer(name, pass.name) : prefer(pass.name, name))} />`
     : rows.length > 0 && html`<p class="about">Press a bar to see more of a pass.${paired && followed.length > 1 ? " Drag the satellite that counts more to the top: where two are up at once, a minute of the first is worth more." : ""}</p>`}
     ${!followed.length && station.where && html`<p class="about">The box flies passes by itself once it follows satellites: <a href="#setup">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
     <p class="about" role="status">${!station.where ? html`The box does not know where it stands: <a href="#setup">Setup, step 8</a>.` : fault || (waits ? "The box computes passes and plan …" : passes && !rows.length ? "No pass is high enough." : "")}</p>
-    <p class=${undo ? "only-read" : "about"} role="status">${told}</p></section>`;
+    <p class="only-read" role="status">${told}</p></section>`;
 }
