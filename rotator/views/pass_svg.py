@@ -68,8 +68,8 @@ def closings(trace: Sequence[Sample], drive: Callable[[Sample], int]) -> list[fl
     return [after.t for before, after in pairwise(trace) if drive(after) not in (0, drive(before))]
 
 
-def draw(target: str, flights: Sequence[Flown], mount: Mount | None = None) -> str:
-    """The whole drawing. `mount`: draw the horizon and sectors around the antenna; None: do not."""
+def draw(target: str, flights: Sequence[Flown], mount: Mount | None = None, when: str = "") -> str:
+    """The whole drawing. `mount`: draw the horizon and sectors around the antenna; None: do not. `when`: the date."""
     first = flights[0]
     rows = list(_rows(flights))
     high = ROWS_Y + ROW_PX * len(rows) + 34
@@ -78,6 +78,7 @@ def draw(target: str, flights: Sequence[Flown], mount: Mount | None = None) -> s
         *SKY.backdrop(mount),
         *_paths(flights),
         *_legend(target, flights, mount),
+        *([text(WIDTH - 26, 28, when, "end", "faint")] if when else []),
         *_moments(flights),
         *_errors(flights, times),
     ]

@@ -134,7 +134,7 @@ class FlownPictures:
         )
         when = datetime.fromtimestamp(begin_utc_s, UTC)
         antenna = Flown("antenna as measured", "blue", record.trace, record, record.clicks_s)
-        drawn = draw(f"{record.name}, {when:%d %b %Y %H:%M} UTC", [antenna], self._mount)
+        drawn = draw(record.name, [antenna], self._mount, f"{when:%d %b %Y %H:%M} UTC")
         self._kept.keep(flown, drawn, csv_of(record.trace, begin_utc_s))
 
 

@@ -1,6 +1,7 @@
 // The demonstration: one press flies a pass of the ISS on a simulated rotor, and its picture can be kept or sent.
 // A real rotor has no such button, and its box refuses the order.
 import { post, read } from "/box.js";
+import { Keeps } from "/flown.js";
 import { act, html, useEffect, useEvery, useState } from "/ui.js";
 
 const MARK = ", demo", FAST = " 10×", LOOK_MS = 1000, PATIENCE_LOOKS = 60;
@@ -66,12 +67,10 @@ function Left({ pass, again, close }) {
   return html`<section class="panel demo left" aria-label="Demonstration">
     <p class="what" role="status"><b>${pass.name.split(MARK)[0]}</b> was flown: off by <b>${pass.rms_deg.toFixed(1)}°</b> rms${pass.relay_starts == null ? "" : html`, <b>${pass.relay_starts}</b> motor starts`}.</p>
     <img src=${address} width="820" height="980" alt="The flown pass: on the sky the path of the ISS and of the antenna; below, how far the antenna was off, and each start of a motor" />
-    <div class="chips">
-      <a class="button" href=${address} download=${pass.file}>Keep the picture</a>
-      <a class="button" href=${`/api/flown/table?file=${pass.file}`} download=${pass.file.replace(/svg$/, "csv")}>Keep the figures</a>
+    <${Keeps} file=${pass.file}>
       ${navigator.canShare && html`<button type="button" onClick=${send}>Send the picture</button>`}
       <button type="button" onClick=${again}>Fly it again</button>
       <button type="button" class="quiet" onClick=${close}>Close</button>
-    </div>
+    </${Keeps}>
   </section>`;
 }
