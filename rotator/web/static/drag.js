@@ -11,7 +11,7 @@ export const moved = (list, from, to) => {
 export function drag(event, rows, list, from, show, done) {
   if (event.button > 0) return;
   event.preventDefault();
-  event.currentTarget.focus();
+  event.currentTarget.focus({ preventScroll: true });
   const one = list[from];
   let order = list;
   const move = (to) => {

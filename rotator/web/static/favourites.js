@@ -82,9 +82,9 @@ export function Favourites({ now, station, say }) {
     act(keep(name.trim() || target.trim(), target.trim()).then(() => (setName(""), setTarget(""))), say);
   };
   const lost = (each) => !station.where && !direction(each.target) && !["park", "plan"].includes(each.target);
-  const grab = (event, from) => drag(event, () => [...rows.current.children], list, from, setList, put);
+  const grab = (event, from) => drag(event, () => [...rows.current.children], list, from, setList, (order) => put(order));
   return html`<section class="favourites" aria-label="Favourites"><div class="chips">
-    ${list.map((each) => html`<button type="button" key=${each.name} class="favourite" disabled=${lost(each)} title=${lost(each) ? "The box does not know where it stands" : each.target}
+    ${!edits && list.map((each) => html`<button type="button" key=${each.name} class="favourite" disabled=${lost(each)} title=${lost(each) ? "The box does not know where it stands" : each.target}
       aria-pressed=${now.status.tracks?.name.toLowerCase() === each.target.toLowerCase()} onClick=${() => act(press(each.target), say)}>${each.name}</button>`)}
     <button type="button" class="quiet" aria-expanded=${edits} onClick=${() => setEdits(!edits)}>${edits ? "Done" : "Edit favourites"}</button>
     ${edits && undo && html`<button type="button" class="quiet" onClick=${() => (put(undo), setUndo(null))}>Undo</button>`}</div>

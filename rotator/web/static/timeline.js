@@ -121,7 +121,7 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
   const other = followed.some((one) => one.priority !== one.written);
   return html`<section class="timeline" aria-label="The next 24 hours">
     <div class="above"><h2>The next 24 hours</h2>
-      <p class="legend"><span class="flown">planned</span><span class="out">left out</span>${rows.some((row) => !row.one) && html`<span>not in the plan</span>`}</p>
+      ${rows.length > 0 && html`<p class="legend">${followed.length > 0 && html`<span class="flown">planned</span><span class="out">left out</span>`}${rows.some((row) => !row.one) && html`<span>not in the plan</span>`}</p>`}
       ${undo && html`<button type="button" onClick=${takeBack}>Undo: ${undo.says}</button>`}
       ${paired && other && !undo && html`<button type="button" onClick=${asWritten}>The file's order again</button>`}</div>
     ${rows.length > 0 && html`<div class=${`scroller ${waits ? "old" : ""}`}><div class="day">
