@@ -88,8 +88,10 @@ function patterns(text) {
     index = new Map();
     const letters = (message) => message.replace(/\{\d+\}|[^\p{L}]/gu, "").length;
     for (const [message, translation] of [...known].filter(([each]) => each.includes("{0}")).sort(([a], [b]) => letters(b) - letters(a))) {
-      const open = letters(message) < 6, value = open ? "([^]+?)" : "([^]*?)";
-      const pattern = new RegExp(`^${message.split(/\{\d+\}/).map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")).join(value)}$`);
+      const open = letters(message) < 6, pieces = message.split(/\{\d+\}/).map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+      // Where two values touch, the second one is a clause of its own, or nothing.
+      const value = (next) => (next === "" ? "((?:(?![,;:] | \\()[^])*)" : open ? "([^]+?)" : "([^]*?)");
+      const pattern = new RegExp(`^${pieces.map((each, at) => (at ? value(at < pieces.length - 1 ? each : null) : "") + each).join("")}$`);
       const first = /^[^\s{]+(?=\s)/.exec(message)?.[0] ?? "";
       index.set(first, [...(index.get(first) ?? []), { pattern, translation, open }]);
     }
