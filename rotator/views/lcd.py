@@ -73,7 +73,7 @@ def _notices(status: Status, say: Callable[[str], str]) -> list[str]:
     for axis in status.fitted:
         notices += [f"{_SHORT[axis]} {say(notice.lcd)}" for notice in status.axis(axis).notices if notice.lcd]
     if status.flown is not None:
-        when = rise_or_set(status.flown, status.at_s)
+        when = rise_or_set(status.flown, status.at_s, short=True)
         when = say(when) if when == ALWAYS_UP else when
         notices.append(f"{status.flown.name[: COLUMNS - 1 - len(when)]} {when}")
         if status.flown.beyond_beam:

@@ -15,7 +15,7 @@ from rotator.exchange.faults import FaultKind
 from rotator.exchange.orders import Mode
 from rotator.exchange.sources import PANEL
 from rotator.exchange.spoken import sender, spoken
-from rotator.exchange.status import AxisStatus, Flown, Status
+from rotator.exchange.status import SHOWN_OFF_DEG, AxisStatus, Flown, Status
 from rotator.views.sky_plot import off_deg
 
 KEYS = "space STOP   q quit", "park + Enter: storm park", "resume + Enter: go on"
@@ -87,11 +87,11 @@ def headline(status: Status) -> tuple[str, str]:
 
 def _at_rest(status: Status) -> tuple[str, str]:
     """The words for a box at rest. An axis without an order, or that lost it by a fault, points at no target."""
-    if off_deg(status) is None:
+    if (off := off_deg(status)) is None:
         return "AT REST", PLAIN
     lost = [axis for axis in status.fitted if status.axis(axis).target_deg is None]
     if not lost:
-        return "ON TARGET", GOOD
+        return "ON TARGET" if off < SHOWN_OFF_DEG else "ON TARGET, WITHIN TOLERANCE", GOOD
     if (there := next((axis for axis in status.fitted if axis not in lost), None)) is None:
         return "AT REST", PLAIN
     return f"{there.value.upper()} ON TARGET, {lost[0].value.upper()} AT REST", PLAIN
@@ -111,9 +111,14 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     return f"orders from {sender(source, status.controlled_from)}{recognised}{point}" + (f" ({where})" if where else "")
 
 
-def rise_or_set(flown: Flown, now_s: float) -> str:
-    """`AOS 3:20`: minutes and seconds until the target rises. LOS: until it sets. IN, ENDS: the same of a table."""
-    begins, ends = ("IN", "ENDS") if flown.table else ("AOS", "LOS")
+def rise_or_set(flown: Flown, now_s: float, *, short: bool = False) -> str:
+    """`AOS in 3:20`: minutes and seconds until the target rises. LOS: until it sets. A table begins and ends.
+
+    `short`: for a display, `AOS 3:20`, and of a table `IN` and `ENDS`.
+    """
+    begins, ends = ("begins in", "ends in") if flown.table else ("AOS in", "LOS in")
+    if short:
+        begins, ends = ("IN", "ENDS") if flown.table else ("AOS", "LOS")
     if flown.begin_s > now_s:
         return f"{begins} {_countdown(flown.begin_s - now_s)}"
     return f"{ends} {_countdown(flown.end_s - now_s)}" if math.isfinite(flown.end_s) else "always up"

@@ -74,7 +74,7 @@ def test_stop_works_by_key_while_a_question_is_open(start: Start, visit: Visit) 
     page.get_by_label("Elevation", exact=True).fill("60")
     page.get_by_role("button", name="Point there").click()
     headline(page, "TURNING")
-    page.get_by_role("button", name="Park", exact=True).click()
+    page.get_by_role("button", name="To the park position").click()
     page.get_by_role("alertdialog").wait_for()
     stop = page.locator("#stop").bounding_box()
     assert stop is not None

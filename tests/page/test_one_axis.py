@@ -30,7 +30,7 @@ def test_a_press_on_the_rose_names_a_bearing_and_a_locator_has_two_ways(start: S
     assert box is not None
     reach = min(box["width"] / 244, box["height"] / 240)
     page.mouse.click(box["x"] + box["width"] / 2 + 70 * reach, box["y"] + box["height"] / 2)
-    page.get_by_role("button", name=re.compile("^Turn to (89|90|91)°$")).wait_for()
+    page.get_by_role("button", name=re.compile("^Point to (89|90|91)°$")).wait_for()
     page.get_by_role("button", name="Point there").click()
     headline(page, "ON TARGET")
     waits_for(page, lambda: abs(station.world().antenna_deg[0] - 90.0) < 5.0)

@@ -44,7 +44,7 @@ def test_axe_finds_nothing(start: Start, visit: Visit, light: str) -> None:
     assert violations(page) == [], "looking on"
     pair(page)
     assert violations(page) == [], "paired"
-    page.get_by_role("button", name="Park", exact=True).click()
+    page.get_by_role("button", name="To the park position").click()
     assert violations(page) == [], "a question"
     page.keyboard.press("Escape")
     headline(page, "STOPPED by")
@@ -153,9 +153,9 @@ def test_the_keyboard_alone_points_and_turns(start: Start, visit: Visit) -> None
 def test_a_question_takes_the_keys_and_gives_them_back(start: Start, visit: Visit) -> None:
     page = visit(start())
     pair(page)
-    page.get_by_role("button", name="Park", exact=True).press("Enter")
+    page.get_by_role("button", name="To the park position").press("Enter")
     page.locator(".asks button:focus", has_text="No").press("Enter")
-    page.locator("button:focus", has_text="Park").wait_for()
+    page.locator("button:focus", has_text="To the park position").wait_for()
 
 
 def test_what_changes_each_second_is_not_read_out(start: Start, visit: Visit) -> None:

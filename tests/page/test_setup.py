@@ -80,7 +80,7 @@ def test_a_setting_is_changed_in_the_file_and_its_remark_stays(
     assert "park_azimuth_deg = 95   # away from the trees" in (station.folder / "r.toml").read_text()
     assert "park_azimuth_deg = 90 " in (station.folder / "r.toml.bak").read_text()
     page.get_by_role("link", name="Antenna").click()
-    page.get_by_role("button", name="Park", exact=True).click()
+    page.get_by_role("button", name="To the park position").click()
     page.get_by_text("The antenna turns to 95°").wait_for()
 
 

@@ -26,8 +26,8 @@ def status(source: str, *, recognised: bool) -> Status:
 @pytest.mark.parametrize(
     ("source", "recognised", "said", "told"),
     [
-        ("gs232b#1", True, "orders from gs232b: ISS, LOS 5:12", "recognised: ISS, up for 5:12 min more"),
-        ("track", False, "tracks ISS, LOS 5:12", "tracks: ISS, up for 5:12 min more"),
+        ("gs232b#1", True, "orders from gs232b: ISS, LOS in 5:12", "recognised: ISS, up for 5:12 min more"),
+        ("track", False, "tracks ISS, LOS in 5:12", "tracks: ISS, up for 5:12 min more"),
     ],
 )
 def test_recognised_in_a_programs_orders_or_tracked_by_the_box(
@@ -83,10 +83,10 @@ STANDS = Status(100.0, AxisStatus(0, 450, 231.0), AxisStatus(0, 180, 24.0), cont
 @every_row(
     ("begin_s", "end_s", "said"),
     [
-        (300.0, 900.0, "tracks ISS, AOS 3:20"),
-        (8000.0, 9000.0, "tracks ISS, AOS 2h11"),
-        (50.0, 165.4, "tracks ISS, LOS 1:05"),
-        (50.0, 90.0, "tracks ISS, LOS 0:00"),
+        (300.0, 900.0, "tracks ISS, AOS in 3:20"),
+        (8000.0, 9000.0, "tracks ISS, AOS in 2h11"),
+        (50.0, 165.4, "tracks ISS, LOS in 1:05"),
+        (50.0, 90.0, "tracks ISS, LOS in 0:00"),
         (50.0, math.inf, "tracks ISS, always up"),
     ],
 )
@@ -106,9 +106,9 @@ def test_it_waits_for_a_target_that_has_not_risen() -> None:
 @pytest.mark.parametrize(
     ("error_deg", "beyond", "said"),
     [
-        (0.04, False, "tracks ISS, LOS 1:05"),
-        (0.31, False, "tracks ISS, LOS 1:05, error up to 0.3°"),
-        (12.4, True, "tracks ISS, LOS 1:05, ERROR UP TO 12°: BEYOND THE BEAM"),
+        (0.04, False, "tracks ISS, LOS in 1:05"),
+        (0.31, False, "tracks ISS, LOS in 1:05, error up to 0.3°"),
+        (12.4, True, "tracks ISS, LOS in 1:05, ERROR UP TO 12°: BEYOND THE BEAM"),
     ],
 )
 def test_how_far_the_target_may_be_off(error_deg: float, beyond: bool, said: str) -> None:
@@ -118,7 +118,9 @@ def test_how_far_the_target_may_be_off(error_deg: float, beyond: bool, said: str
     assert any(line == f"tracks: ISS, up for 1:05 min more{flown.error_text}" for line in report(status))
 
 
-@pytest.mark.parametrize(("begin_s", "said"), [(150.0, "tracks abs, IN 0:50"), (50.0, "tracks abs, ENDS 1:05")])
+@pytest.mark.parametrize(
+    ("begin_s", "said"), [(150.0, "tracks abs, begins in 0:50"), (50.0, "tracks abs, ends in 1:05")]
+)
 def test_a_table_begins_and_ends_and_does_not_rise_or_set(begin_s: float, said: str) -> None:
     status = replace(STANDS, flown=Flown("abs", begin_s, 165.4, table=True))
     assert orders_from(status) == said

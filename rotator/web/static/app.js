@@ -61,8 +61,8 @@ function Antenna({ station, now, hello, fresh, say }) {
       ${paired ? html`<${JogPad} station=${station} live=${live} say=${say} />
         <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
         <${Track} now=${now} known=${station.where} say=${say} />
-        <${Asks} label="Park" question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Park it?`}
-          yes="Park it" onYes=${() => act(post("park"), say)} />
+        <${Asks} label="To the park position" question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Turn it there?`}
+          yes="Turn it there" onYes=${() => act(post("park"), say)} />
         <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
     </section>
     <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}
@@ -98,7 +98,7 @@ function Page() {
       <h1>rotator</h1>
       ${now?.status.simulated && html`<strong class="sim">SIM<span> simulated: nothing real turns</span></strong>`}
       <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
-      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? (hello.paired ? hello.name : "looking") : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
+      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? (hello.paired ? hello.name : "may only look") : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
     </header>
     ${now && html`<${Strip} now=${now} paired=${hello.paired} fresh=${fresh} beside=${view === ""} said=${said} say=${say} />`}
     ${now && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}

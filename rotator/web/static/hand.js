@@ -77,7 +77,7 @@ export function Target({ station, draft, setDraft, say }) {
 /** A direction that was pressed on the sky: the next step stands there, too. */
 export function ThereFromSky({ station, draft, say }) {
   const there = directionOf(draft);
-  return there && html`<p><button type="button" class="go" onClick=${() => pointAt(there, say)}>Turn to ${station.elevation.fitted ? `${there[0]}°, ${there[1]}°` : `${there[0]}°`}</button></p>`;
+  return there && html`<p><button type="button" class="go" onClick=${() => pointAt(there, say)}>Point to ${station.elevation.fitted ? `${there[0]}°, ${there[1]}°` : `${there[0]}°`}</button></p>`;
 }
 
 /** What became of the latest request, where the status does not show it; empty: nothing to say. */

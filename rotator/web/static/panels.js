@@ -19,7 +19,7 @@ export function Headline({ now, hello, next }) {
     <div role="status"><h2>${now.headline}</h2></div>
     <dl class="angles">
       ${fitted(now.status).map((axis) => html`<div><dt>${axis}</dt><dd>${about(now, axis)}</dd>
-        <dd class="to">${now[`${axis}_target_deg`] != null ? `to ${degrees(now[`${axis}_target_deg`])}` : " "}</dd></div>`)}
+        <dd class="to">${now[`${axis}_target_deg`] != null ? `aim ${degrees(now[`${axis}_target_deg`])}` : " "}</dd></div>`)}
     </dl>
     <p class="facts">
       ${azimuth.missing.length + elevation.missing.length > 0 && html`<span>a new box begins with <a href="#setup">Setup</a></span>`}
@@ -39,7 +39,7 @@ const mover = (now, hello) => (now.mover && now.status.moved_by === hello.source
 export function Control({ now, hello, paired, say }) {
   const { status } = now, mine = status.held_by === hello.source;
   const who = mover(now, hello);
-  const holder = mine ? "this browser" : now.holder;
+  const holder = holderOf(now, hello);
   return html`<div class="control">
     <p>${who && who === holder ? html`Moved and held by <b>${who}</b>`
       : html`${who ? html`Moved by <b>${who}</b>` : "No orders"}${holder && html`, held by <b>${holder}</b>`}`}</p>
@@ -50,16 +50,19 @@ export function Control({ now, hello, paired, say }) {
 }
 
 const MODES = {
-  auto: ["AUTO", () => "Programs and the plan move the antenna."],
+  auto: ["AUTO", (_, holder) => (holder ? `While ${holder} holds it, programs and the plan wait.` : "Programs and the plan move the antenna.")],
   manual: ["MANUAL", (who) => `Only ${who} points and turns it.`],
   jog: ["JOG", (who) => `Only buttons that ${who} holds turn it.`],
-  park: ["PARK", () => "It stays where it is."],
+  park: ["PARK", () => "It stays where it is, and obeys nobody."],
 };
+
+/** Who has taken the antenna and not given it back; empty: nobody. */
+const holderOf = (now, hello) => (now.status.held_by === hello.source ? "this browser" : now.holder);
 
 /** A box with a mode switch of its own shows where it stands; without one the page is the switch. */
 export function Mode({ now, hello, paired, say }) {
   const { panel_mode: mode, mode_by: source } = now.status, who = source === hello.source ? "this browser" : now.mode_by || "the panel";
-  const told = `${MODES[mode][1](who)}${mode === "auto" || !source ? "" : ` Set by ${who}.`}`;
+  const told = `${MODES[mode][1](who, holderOf(now, hello))}${mode === "auto" || !source ? "" : ` Set by ${who}.`}`;
   if (now.mode_switch || !paired) return html`<p class="mode">Mode <b>${MODES[mode][0]}</b>: ${told}</p>`;
   return html`<div class="mode"><div class="choice" role="group" aria-label="Mode">${Object.entries(MODES).map(([each, [name]]) => html`<button type="button" aria-label=${`Mode ${name}`}
       aria-pressed=${mode === each} onClick=${() => act(post("mode", { mode: each }), say)}>${name}</button>`)}</div><p>${told}</p></div>`;

@@ -70,7 +70,7 @@ function Backdrop({ station }) {
     ${[["N", 0], ["E", 90], ["S", 180], ["W", 270]].map(([name, az]) => html`<text class="compass" x=${109 * Math.sin(rad(az))}
       y=${-109 * Math.cos(rad(az)) + 4}>${name}</text>`)}
     ${[30, 60].map((el) => html`<text class="height" x="2" y=${-(RADIUS * (90 - el)) / 90 - 1.5}>${el}°</text>`)}
-    <g transform=${`translate(${point(parked(station.park))})`} class="park"><circle r="5" /><path d="M-1.4,3 V-3 H0.6 A1.8,1.8 0 0 1 .6,.7 H-1.4" /></g>
+    <g transform=${`translate(${point(parked(station.park))})`} class="park"><title>park position</title><circle r="5" /><path d="M-1.4,3 V-3 H0.6 A1.8,1.8 0 0 1 .6,.7 H-1.4" /></g>
   </g>`;
 }
 
@@ -142,6 +142,6 @@ function Dome({ station, now, past, path, next, draft, onPick }) {
     <figcaption><span class="key antenna">antenna, its beam ${station.beam_deg}°</span><span class="key target">target</span>
       ${path && html`<span class="key pass">${path.name}</span>`}
       ${follows && html`<span class="key next">next: ${follows.name}, ${clock(follows.aos)}</span>`}
-      ${station.sectors.length > 0 && html`<span class="key sector">forbidden</span>`}</figcaption>
+      ${station.sectors.length > 0 && html`<span class="key sector">forbidden</span>`}<span class="key park">park position</span></figcaption>
   </figure>`;
 }
