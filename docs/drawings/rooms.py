@@ -37,7 +37,6 @@ CAPTIONS = {
     "rotator.store": "files kept",
     "rotator.exchange": "orders, status",
     "rotator.languages": "catalogues",
-    "rotator.notify": "tells a person",
     "hw.ports": "the interfaces",
     "hw.interpolation": "points and lines",
     "hw.urgent": "threads that go first",

@@ -95,7 +95,6 @@ class App:
         threads = {
             "the page": built.page,
             "MQTT": built.mqtt,
-            "notices": built.notify,
             "the panel": built.panel,
             "the display": built.display,
             "the tracker": built.tracking,
@@ -133,7 +132,7 @@ class App:
             if self._anew.again and built.page.wire.state == "closed":
                 # Else a person who has changed the page's port by the page could never change it back.
                 raise LinkError(f"{built.page.wire.where}: the page cannot listen there")
-        for thread in (built.mqtt, built.notify, built.display, built.panel, built.tracking, built.fetching):
+        for thread in (built.mqtt, built.display, built.panel, built.tracking, built.fetching):
             if thread:
                 thread.start()
         side = [("monitor", built.monitor_socket.run()), ("console", built.console_socket.run())]

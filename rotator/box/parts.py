@@ -57,7 +57,6 @@ if TYPE_CHECKING:
     from rotator.fetching.thread import FetchThread
     from rotator.links.elements import ElementsServer
     from rotator.mqtt.thread import MqttThread
-    from rotator.notify.thread import NotifyThread
     from rotator.panel.thread import PanelThread
     from rotator.web.thread import PageThread
 
@@ -87,7 +86,6 @@ class Parts:
     pairings: Pairings | None
     page: PageThread | None
     mqtt: MqttThread | None
-    notify: NotifyThread | None
     panel: PanelThread | None
     display: DisplayThread | None
     language: Wanted
@@ -188,7 +186,6 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
         pairings=pairings,
         page=page,
         mqtt=mqtt,
-        notify=_notify(config, loop, tracking) if config.notify.url else None,
         panel=panel,
         display=DisplayThread(display, rows, time.monotonic) if display else None,
         language=config.page.language,
@@ -212,11 +209,3 @@ def _mqtt(config: Config, loop: ControlLoop, mount: Mount, tracking: Tracking) -
     from rotator.mqtt.build import build_mqtt
 
     return build_mqtt(config, loop, mount, tracking)
-
-
-def _notify(config: Config, loop: ControlLoop, tracking: TrackingThread) -> NotifyThread:
-    from rotator.notify.thread import NotifyThread
-    from rotator.notify.watch import Watch
-
-    watch = Watch(config.notify.events, 60 * config.notify.before_min)
-    return NotifyThread(config.notify, lambda: watch.step(loop.status, tracking.upcoming(), time.time()))

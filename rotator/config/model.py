@@ -141,6 +141,8 @@ class Config(Table):
         yield from self.adc.faults_in_use() if self.uses_adc else ()
         yield from (*self.kind.faults(axes), *self._compass_faults(), *self._switches_in_the_way())
         yield from (*self._park_faults(), *self._sector_faults())
+        if self.notify.url and not self.page.enabled:
+            yield "notify.url needs the page, which posts the notices: page.enabled = true"
         switched = self.rotor.switched
         yield from felt_faults(self.azimuth, self.elevation, self.mount, self.rotor.type, switched=switched)
         yield from endless_faults(axes, self.kind, self.rotor.type, self.angle, self.limits.switches)

@@ -95,21 +95,21 @@ def ask(question: Question) -> Answer:
 
 def _opened(question: Question) -> HTTPResponse:
     """Follows the redirections of the server. The content of a redirection is not read: it may have any length."""
-    opens, address = opener(), question.address
+    opener, address = _opener(), question.address
     for _ in range(MOST_REDIRECTS):
         try:
-            return _open(opens, question, address)
+            return _open(opener, question, address)
         except HTTPError as answer:
             place = answer.headers.get("Location")
             if answer.code not in _REDIRECTS or not place:
                 raise
             answer.close()
             address = _led(address, urljoin(address, place))
-    return _open(opens, question, address)
+    return _open(opener, question, address)
 
 
-def _open(opens: OpenerDirector, question: Question, address: str) -> HTTPResponse:
-    response: HTTPResponse = opens.open(_request(question, address), timeout=ANSWER_S)
+def _open(opener: OpenerDirector, question: Question, address: str) -> HTTPResponse:
+    response: HTTPResponse = opener.open(_request(question, address), timeout=ANSWER_S)
     return response
 
 
@@ -121,7 +121,7 @@ def _led(before: str, after: str) -> str:
     return quote(after, safe=string.punctuation, encoding="iso-8859-1")
 
 
-def opener() -> OpenerDirector:
+def _opener() -> OpenerDirector:
     """An opener for http and https alone: `urllib`'s own opener reads files, too."""
     opener = OpenerDirector()
     for handler in (ProxyHandler(), HTTPHandler(), HTTPSHandler(), HTTPDefaultErrorHandler(), HTTPErrorProcessor()):

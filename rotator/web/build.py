@@ -31,6 +31,7 @@ from rotator.store.flown import FlownPasses
 from rotator.store.paired import FILE_NAME, Paired, PairedFile
 from rotator.store.uploads import Uploads
 from rotator.tracking.thread import TrackingThread
+from rotator.views.news import News
 from rotator.web.facts import Station
 from rotator.web.logs import LogLines, WireLog
 from rotator.web.pairing import Pairings
@@ -78,7 +79,7 @@ def build_page(
     lines, wire_log = LogLines(), WireLog(tap)
     tracks, known = (lambda: tracking.tracker.state), tracking.clock_is_known
     scene = Scene(lambda: loop.status, lcd, wires, pairings.named, tracks, utc=time.time, clock_is_known=known)
-    recorder = Recorder()
+    recorder, news = Recorder(), News(config.notify.events, 60 * config.notify.before_min)
 
     def hear(_source: Source, order: Order) -> None:
         scene.note_order(order)
@@ -99,7 +100,7 @@ def build_page(
         # Slow to load; this function runs in the page's thread.
         from rotator.web.api import PageParts  # noqa: PLC0415
         from rotator.web.box_file import BoxFile  # noqa: PLC0415
-        from rotator.web.calendar import PlanCalendar  # noqa: PLC0415
+        from rotator.web.calendar import calendar_route, plan_command  # noqa: PLC0415
         from rotator.web.elements import ElementFiles  # noqa: PLC0415
         from rotator.web.entrance import Doors  # noqa: PLC0415
         from rotator.web.favourites import FavouritesApi  # noqa: PLC0415
@@ -108,21 +109,21 @@ def build_page(
         from rotator.web.plan import Passes, Plan, command  # noqa: PLC0415
         from rotator.web.setting_up import SettingUpApi  # noqa: PLC0415
         from rotator.web.settings import SettingsApi  # noqa: PLC0415
+        from rotator.web.webhook import Webhook  # noqa: PLC0415
 
         file = BoxFile(path, anew, lambda: loop.status)
         site = build_site(config.station)
         place = (site.latitude_deg, site.longitude_deg) if site else None
         passes = Passes(command(path) if path and site else None, time.monotonic, tracking.known_elements)
-        calendar = PlanCalendar(path if site and config.sky.follow else None, time.monotonic)
+        days = Passes(plan_command(path) if path and site else None, time.monotonic, tracking.known_elements)
 
         def plan_again() -> None:
             passes.forget()
-            calendar.forget()
+            days.forget()
             tracking.plan_again()
 
         def read_again() -> None:
             passes.forget()
-            calendar.forget()
             tracking.read_again()
 
         plan = Plan(config.sky.follow, tracking.sky, tracking.priorities, passes, changed=plan_again, utc=time.time)
@@ -149,14 +150,17 @@ def build_page(
             utc=time.time,
             calibration=calibration,
             groups=(
-                lambda _entrance: (*plan.routes(), *calendar.routes(), *favourites.routes()),
+                lambda _entrance: (*plan.routes(), calendar_route(days), *favourites.routes()),
                 lambda _entrance: (*elements.routes(), *flown.routes()),
                 lambda _entrance: (*SettingsApi(file).routes(), *SettingUpApi(file, calibration).routes()),
                 *help_groups(config, file, place, pairings=pairings, lines=lines, wires=wire_log),
             ),
-            works=(flown.run,),
+            works=(
+                flown.run,
+                Webhook(config.notify, lambda: news.step(loop.status, tracking.upcoming(), time.time())).run,
+            ),
             language=config.page.language,
-            closes=(passes.close, calendar.close, elements.close),
+            closes=(passes.close, days.close, elements.close),
         )
 
     rivals = (counted("link", at) for at, each in enumerate(config.link) if each.tcp and address(each.tcp)[1] == port)

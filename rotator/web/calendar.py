@@ -9,16 +9,16 @@ import asyncio
 import re
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from aiohttp import web
 
-from rotator.web.computed import Computed, of_the_program
+from rotator.web.computed import of_the_program
 from rotator.web.entrance import RefusedError
-from rotator.web.plan import KEPT_S
+from rotator.web.plan import Passes
 from rotator.web.route import Route, get, refusals
 from rotator.web.schema import ICS
 
@@ -55,28 +55,25 @@ def calendar(plan: Iterable[Mapping[str, Any]], utc_s: float) -> str:
     return "".join(f"{piece}\r\n" for line in [*lines, "END:VCALENDAR"] for piece in _folded(line))
 
 
-class PlanCalendar(Computed):
-    """`path`: the configuration's file; None: it has no place of the station, or follows nothing."""
+def plan_command(path: Path) -> tuple[str, ...]:
+    return of_the_program("sky", "plan", "--json", "--hours", str(HOURS), "--config", str(path))
 
-    def __init__(self, path: Path | None, clock: Callable[[], float]) -> None:
-        words = of_the_program("sky", "plan", "--json", "--hours", str(HOURS), "--config", str(path)) if path else ()
-        super().__init__(words, clock, named="the plan", kept_s=KEPT_S, shaped=lambda rows: {"plan": rows})
 
-    def routes(self) -> Sequence[Route]:
-        says = f"The passes that the antenna flies in the next {HOURS} hours, to subscribe to (iCalendar)", ICS
-        return (get("/api/passes.ics", self._serve, says, more=refusals(409, 503)),)
+def calendar_route(plan: Passes) -> Route:
+    """`plan`: by `plan_command`."""
 
-    async def _serve(self, _request: web.Request) -> web.Response:
-        if not self._words:
-            raise RefusedError("there is no plan: it needs [station] and [[sky.follow]]")
+    async def serve(_request: web.Request) -> web.Response:
         try:
             async with asyncio.timeout(TAKES_S):
-                answer = self.latest() or await self.newest()
+                answer = plan.latest() or await plan.newest()
         except TimeoutError:
             raise RefusedError("the plan is still computed: ask again", 503) from None
         if "error" in answer:
             raise RefusedError(answer["error"])
-        return web.Response(text=calendar(answer["plan"], time.time()), content_type="text/calendar")
+        return web.Response(text=calendar(answer["passes"], time.time()), content_type="text/calendar")
+
+    says = f"The passes that the antenna flies in the next {HOURS} hours, to subscribe to (iCalendar)", ICS
+    return get("/api/passes.ics", serve, says, more=refusals(409, 503))
 
 
 def _utc(utc_s: float) -> str:

@@ -39,7 +39,12 @@ def rise() -> Box:
 @pytest.mark.long
 def test_it_sets_off_in_time_and_stands_waiting_15_s_before_the_rise(rise: Box) -> None:
     assert rise.loop.status.controlled_by == "", "not before it has to"
-    rise.wait(94.0)
+    rise.wait(1.0)
+    assert rise.follower.upcoming is not None
+    name, rises_utc_s = rise.follower.upcoming
+    assert name.startswith("ISS")
+    assert rises_utc_s == pytest.approx(rise.utc_s + 109.0, abs=20.0)
+    rise.wait(93.0)
     status = rise.loop.status
     assert status.controlled_by == "track"
     assert status.flown is not None

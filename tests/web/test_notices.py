@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import base64
 import logging
 import re
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field, replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from queue import Queue
@@ -19,8 +21,8 @@ from hw.ports import Axis
 from rotator.config.notify import NotifyTable
 from rotator.exchange.faults import Fault, FaultKind
 from rotator.exchange.status import AxisStatus, Flown, Status
-from rotator.notify.thread import NotifyThread
-from rotator.notify.watch import Notice, Watch
+from rotator.views.news import News, Notice
+from rotator.web.webhook import Webhook
 from tests.boxes import free_port
 from tests.web.conftest import PATIENCE_S, Start
 
@@ -72,7 +74,7 @@ async def test_a_box_tells_of_a_stop_and_of_a_pass(page_box: Start, receiver: Re
     async with page_box(f'[notify]\nurl = "{url}"\nbefore_min = 5\n') as box:
         await box.pair("Anna's phone")
         await box.post("stop")
-        path, headers, text = receiver.came.get(timeout=PATIENCE_S)
+        path, headers, text = await next_at(receiver)
         assert (path, headers["Title"], text) == (
             f"/{SECRET}",
             "STOPPED by the page",
@@ -96,64 +98,68 @@ async def test_a_receiver_that_never_answers_delays_neither_an_order_nor_the_end
     async with page_box(f'[notify]\nurl = "{receiver.url}"\n') as box:
         await box.pair()
         await box.post("stop")
-        receiver.came.get(timeout=PATIENCE_S)
+        await next_at(receiver)
         await box.post("resume")
         assert (await box.post("point", {"azimuth_deg": 90, "elevation_deg": 20}))[0] == 200
         await box.until(lambda: box.status.moving)
     assert not receiver.over.is_set(), "the box has ended, and the receiver still does not answer"
 
 
-def notify(table: NotifyTable, *told: Notice) -> NotifyThread:
-    """Started, with these notices at once, and no pause between two tries."""
+@asynccontextmanager
+async def notify(table: NotifyTable, *told: Notice) -> AsyncIterator[None]:
+    """Running, with these notices at once, and no pause between two tries."""
     left = [list(told)]
-    thread = NotifyThread(table, lambda: left.pop() if left else [], waits_s=(0.0, 0.0))
-    thread.start()
-    return thread
+    webhook = Webhook(table, lambda: left.pop() if left else [], waits_s=(0.0, 0.0))
+    running = asyncio.create_task(webhook.run())
+    yield
+    running.cancel()
+    await asyncio.gather(running, return_exceptions=True)
 
 
 def news(title: str, event: str = "fault") -> Notice:
     return Notice(event, title, "text", time.time())
 
 
-def test_it_is_tried_again_where_that_may_help_and_its_title_may_be_of_any_letters(receiver: Receiver) -> None:
+async def next_at(receiver: Receiver) -> tuple[str, dict[str, str], str]:
+    return await asyncio.to_thread(receiver.came.get, timeout=PATIENCE_S)
+
+
+async def test_it_is_tried_again_where_that_may_help_and_its_title_may_be_of_any_letters(receiver: Receiver) -> None:
     receiver.answers = [503, 429, 200, 403]
-    thread = notify(NotifyTable(url=receiver.url), news("Ö"), news("refused"), news("last"))
-    titles = [receiver.came.get(timeout=PATIENCE_S)[1]["Title"] for _ in range(5)]
-    thread.stop()
+    async with notify(NotifyTable(url=receiver.url), news("Ö"), news("refused"), news("last")):
+        titles = [(await next_at(receiver))[1]["Title"] for _ in range(5)]
     assert titles == ["=?utf-8?b?w5Y=?="] * 3 + ["refused", "last"]
 
 
-def test_as_json_it_has_its_parts(receiver: Receiver) -> None:
-    thread = notify(NotifyTable(url=receiver.url, form="json"), news("It rises", "pass"))
-    _, headers, text = receiver.came.get(timeout=PATIENCE_S)
-    thread.stop()
+async def test_as_json_it_has_its_parts(receiver: Receiver) -> None:
+    async with notify(NotifyTable(url=receiver.url, form="json"), news("It comes", "pass")):
+        _, headers, text = await next_at(receiver)
     assert headers["Content-Type"] == "application/json"
-    assert '"event": "pass", "title": "It rises", "text": "text", "utc_s": ' in text
+    assert '"event": "pass", "title": "It comes", "text": "text", "utc_s": ' in text
 
 
-def test_a_receiver_that_is_away_is_told_to_the_log_once_without_the_secret(
+async def test_old_news_is_not_told(receiver: Receiver) -> None:
+    async with notify(NotifyTable(url=receiver.url), Notice("pass", "ISS comes", "", 1.0), news("now")):
+        assert (await next_at(receiver))[1]["Title"] == "now"
+
+
+async def test_a_receiver_that_is_away_is_told_to_the_log_once_without_the_secret(
     caplog: pytest.LogCaptureFixture, receiver: Receiver
 ) -> None:
-    away = f"http://anna:{SECRET}@127.0.0.1:{free_port()}/{SECRET}"
-    done = threading.Event()
-    told = [[news("one"), news("two")]]
-
-    def notices() -> list[Notice]:
-        if told:
-            return told.pop()
-        done.set()
-        return []
-
-    with caplog.at_level(logging.INFO, "rotator.notify"):
-        thread = NotifyThread(NotifyTable(url=away), notices, waits_s=(0.0, 0.0))
-        thread.start()
-        assert done.wait(PATIENCE_S)
-        for _ in range(1000):
-            if caplog.messages:
-                break
-            threading.Event().wait(0.01)
-        thread.stop()
-    assert caplog.messages == ["notify: 127.0.0.1: no answer: Connection refused"]
+    """It takes the last one: by then the others have failed."""
+    receiver.answers = [500] * 6
+    url = receiver.url.replace("//", f"//anna:{SECRET}@")
+    with caplog.at_level(logging.INFO, "rotator.web.webhook"):
+        async with notify(NotifyTable(url=url), news("one"), news("two"), news("three")):
+            for _ in range(7):
+                await next_at(receiver)
+        async with notify(NotifyTable(url=f"http://127.0.0.1:{free_port()}/{SECRET}"), news("four")):
+            async with asyncio.timeout(PATIENCE_S):
+                while len(caplog.messages) < 2:
+                    await asyncio.sleep(0.01)
+    assert caplog.messages[0] == "notify: 127.0.0.1: the server answers 500"
+    assert caplog.messages[1].startswith("notify: 127.0.0.1: no answer: ")
+    assert SECRET not in str(caplog.messages)
 
 
 def flown(begin_s: float, name: str = "ISS") -> Status:
@@ -177,10 +183,10 @@ FAULTY = replace(STATUS, azimuth=replace(STATUS.azimuth, fault=OPEN))
     ],
 )
 def test_what_is_new_is_told_once(steps: list[tuple[Status, Any]], titles: list[str]) -> None:
-    watch = Watch(("pass", "fault", "stop"), 300.0)
-    told = [each.title for status, upcoming in steps for each in watch.step(status, upcoming, UTC_S)]
+    news_of = News(("pass", "fault", "stop"), 300.0)
+    told = [each.title for status, upcoming in steps for each in news_of.step(status, upcoming, UTC_S)]
     assert told == titles
 
 
 def test_only_what_was_asked_for_is_told() -> None:
-    assert Watch(("pass",), 300.0).step(replace(FAULTY, latched="page#1"), None, UTC_S) == []
+    assert News(("pass",), 300.0).step(replace(FAULTY, latched="page#1"), None, UTC_S) == []

@@ -26,7 +26,7 @@ class Notice:
     at_utc_s: float
 
 
-class Watch:
+class News:
     """`events`: those that are told. `before_s`: so long before its rise a pass is told."""
 
     def __init__(self, events: Collection[str], before_s: float) -> None:
