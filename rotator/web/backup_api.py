@@ -6,7 +6,6 @@ Knows HTTP. The content of a backup, and how the next start puts it in place, is
 from __future__ import annotations
 
 import asyncio
-import difflib
 import logging
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -20,8 +19,9 @@ from rotator.backup.restore import stage
 from rotator.config import toml_text
 from rotator.config.mistake import ConfigError
 from rotator.config.model import Config
+from rotator.config.proposal import Proposal
 from rotator.protocols.methods import WrongValuesError
-from rotator.web.box_file import Begun, BoxFile
+from rotator.web.box_file import Begun, BoxFile, OneKey, key_changes
 from rotator.web.entrance import RefusedError, bytes_of, download, paired
 from rotator.web.route import PAIRED, Route, get, post, refusals
 from rotator.web.schema import ZIP, in_address, the
@@ -37,6 +37,7 @@ class _Look(TypedDict):
     program: Annotated[str, the("the version that made it")]
     rotor: str
     files: list[str]
+    changes: Annotated[list[OneKey], the("the keys of the configuration whose values change")]
     diff: Annotated[list[str], the("the lines of the configuration that change")]
 
 
@@ -104,11 +105,12 @@ def _shown(path: Path, data: bytes) -> _Look:
         now = toml_text.read(path)
     except (OSError, ConfigError):
         now = ""
-    rows = difflib.unified_diff(now.splitlines(), backup.text.splitlines(), "now", "backup", n=2, lineterm="")
+    proposal = Proposal(now, backup.text, ())
     return {
         "made": backup.made,
         "program": backup.program,
         "rotor": f"{backup.config.rotor.type}, {backup.config.rotor.hardware}",
         "files": [CONFIGURATION, *(name for name in CHECKS if name in backup.parts)],
-        "diff": [row for row in rows if not row.startswith(("---", "+++"))][:MOST_ROWS],
+        "changes": key_changes(proposal),
+        "diff": proposal.diff[:MOST_ROWS],
     }

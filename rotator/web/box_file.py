@@ -9,11 +9,13 @@ from __future__ import annotations
 import asyncio
 import os
 import secrets
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
+
+from typing_extensions import TypedDict
 
 from hw.ports import Axis
 from rotator.config.edit import NoChangeError
@@ -40,6 +42,12 @@ class MayStop(Sent, total=False):
 
 class Begun(Ok):
     run: Annotated[str, the("of the box that ends: after the start it is another one")]
+
+
+class OneKey(TypedDict):
+    place: Annotated[Sequence[str | int], the("a table and its key, or a whole table of a list")]
+    before: Annotated[Any, the("null: it is not in the file")]
+    after: Annotated[Any, the("null: it is not in the file")]
 
 
 STOP = Body((MayStop, {"stop": True}))
@@ -106,6 +114,10 @@ class BoxFile:
         """Start the box again as soon as this answer is sent. `sets_up`: an axis to calibrate then."""
         asyncio.get_running_loop().call_later(ANSWERED_S, lambda: self.anew.ask(self.status(), sets_up))
         return {"ok": True, "run": self.run}
+
+
+def key_changes(proposal: Proposal) -> list[OneKey]:
+    return [{"place": each.place, "before": each.before, "after": each.after} for each in proposal.changes]
 
 
 @contextmanager

@@ -22,7 +22,7 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.setup.answered import fresh
 from rotator.setup.network import open_to
 from rotator.setup.questions import network
-from rotator.web.box_file import STOP, Begun, BoxFile, MayStop
+from rotator.web.box_file import STOP, Begun, BoxFile, MayStop, OneKey, key_changes
 from rotator.web.entrance import computed, paired
 from rotator.web.route import COMPUTING, PAIRED, Route, answered, get, post, refusals
 from rotator.web.schema import Body, Sent, the
@@ -73,14 +73,8 @@ class _Mistake(TypedDict):
     places: Annotated[Sequence[Sequence[str | int]], the("the keys that it is about")]
 
 
-class _KeyChange(TypedDict):
-    place: Annotated[Sequence[str | int], the("a table and its key, or a whole table of a list")]
-    before: Annotated[Any, the("null: it is not in the file")]
-    after: Annotated[Any, the("null: it is not in the file")]
-
-
 class _Shown(TypedDict):
-    changes: Annotated[list[_KeyChange], the("the keys whose values change")]
+    changes: Annotated[list[OneKey], the("the keys whose values change")]
     diff: Annotated[list[str], the("the lines that change")]
     mistakes: list[_Mistake]
 
@@ -222,7 +216,4 @@ def _changes(sent: Sequence[_Change]) -> list[Change]:
 
 def _shown(proposal: Proposal) -> _Shown:
     mistakes: list[_Mistake] = [{"text": each.text, "places": each.places} for each in proposal.mistakes]
-    changes: list[_KeyChange] = [
-        {"place": each.place, "before": each.before, "after": each.after} for each in proposal.changes
-    ]
-    return {"changes": changes, "diff": proposal.diff, "mistakes": mistakes}
+    return {"changes": key_changes(proposal), "diff": proposal.diff, "mistakes": mistakes}

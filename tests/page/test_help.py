@@ -77,12 +77,14 @@ def test_a_backup_is_saved_and_restored_with_one_question(start: Start, visit: V
     file, text = station.folder / "r.toml", (station.folder / "r.toml").read_text()
     file.write_text(f"{text}# a mistake of mine\n")
     page.get_by_label("A backup").set_input_files(saved)
+    page.get_by_text("The lines of the file").click()
     page.locator(".diff .gone", has_text="a mistake of mine").wait_for()
     assert violations(page) == []
     page.get_by_role("button", name="Restore it").click()
     page.get_by_text("Restored: the box runs with it").wait_for()
     assert file.read_text() == text
     page.get_by_label("A backup").set_input_files(station.folder / "r.toml.before-restore.zip")
+    page.get_by_text("The lines of the file").click()
     page.locator(".diff .new", has_text="a mistake of mine").wait_for()
 
 

@@ -8,6 +8,7 @@ import { Asks, directionOf, JogPad, Target, ThereFromSky, Track } from "/hand.js
 import { Favourites } from "/favourites.js";
 import { Help, helps } from "/help.js";
 import { Notices } from "/notices.js";
+import { hindrance, Orders } from "/orders.js";
 import { Pair, Paired } from "/pairing.js";
 import { PassMode } from "/pass.js";
 import { Passes } from "/passes.js";
@@ -53,16 +54,17 @@ function Antenna({ station, now, hello, fresh, say }) {
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
     <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /><${Demo} now=${now} say=${say} /></div>
     <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${setDraft} />
-      ${paired && html`<${ThereFromSky} station=${station} draft=${draft} say=${say} /><${Favourites} now=${now} station=${station} say=${say} />`}</div>
+      ${paired && html`<${Orders} now=${now} hello=${hello} quiet><${ThereFromSky} station=${station} draft=${draft} say=${say} /><//><${Favourites} now=${now} hello=${hello} station=${station} say=${say} />`}</div>
     <div class="panel timeline-panel"><${Timeline} now=${now} station=${station} hello=${hello} say=${say} /></div>
     <section class="panel hand" aria-label="By hand">
       <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
       <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />
-      ${paired ? html`<${JogPad} station=${station} live=${live} say=${say} />
+      ${paired ? html`<${Orders} now=${now} hello=${hello} jog><${JogPad} station=${station} live=${live} say=${say} /><//>
+        <${Orders} now=${now} hello=${hello} quiet=${hindrance(now, hello, true)}>
         <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
         <${Track} now=${now} known=${station.where} say=${say} />
         <${Asks} label="To the park position" question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Turn it there?`}
-          yes="Turn it there" onYes=${() => act(post("park"), say)} />
+          yes="Turn it there" onYes=${() => act(post("park"), say)} /><//>
         <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
     </section>
     <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}

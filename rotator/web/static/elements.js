@@ -13,7 +13,7 @@ function Fetched({ one }) {
   return html`<li><b>${one.address}</b><span>${good}${next}</span>${one.trouble && html`<span class="warning">${one.trouble}</span>`}</li>`;
 }
 
-export function Elements({ paired, changed }) {
+export function Elements({ now, paired, changed }) {
   const [told, setTold] = useState(null), [said, say] = useState(""), [kept, keep] = useState(""), [sends, setSends] = useState(false);
   const load = () => read("elements").then(setTold, () => {});
   useEvery(EVERY_MS, load);
@@ -30,10 +30,11 @@ export function Elements({ paired, changed }) {
   const remove = (name) => act(post("elements/remove", { name }).then(() => (keep(`${name} is removed.`), after())), say);
   if (!told) return null;
   return html`<section class="log elements" aria-label="Elements"><h2>Elements of satellites</h2>
-    <p>${told.satellites ? `${told.satellites} satellites. Of each the newest set counts.` : "No satellite is known yet."}${!told.files.length && !told.fetch.length && html` Send a file, or name an address to fetch from: <a href="#setup">Setup, step 8</a>.`}</p>
+    <p>${told.satellites ? `${told.satellites} satellites. Of each the newest set counts.` : "No satellite is known yet."}${!told.files.length && !told.fetch.length && html` Send a file, or name an address to fetch from: <a href="#setup/8">Setup, step 8</a>.`}</p>
     <ul>${told.files.map((file) => html`<li><b>${file.name}</b><span>${file.satellites} satellites${file.satellites ? `, ${days(file)}` : ""}</span>
         ${file.uploaded && paired && html`<button type="button" aria-label=${`Remove ${file.name}`} onClick=${() => remove(file.name)}>Remove</button>`}</li>`)}
       ${told.fetch.map((one) => html`<${Fetched} one=${one} />`)}</ul>
+    ${told.fetch.length > 0 && !now.clock_known && html`<p class="warning">The box has reached no time server: it fetches as soon as a person says that its time is right, in <a href="#setup/8">Setup, step 8</a>.</p>`}
     ${told.faults.length > 0 && html`<ul class="notes">${told.faults.map((fault) => html`<li>${fault}</li>`)}</ul>`}
     ${paired && html`<label class="file">Send a file: TLE, or OMM as JSON or CSV<input type="file" disabled=${sends} onChange=${take} accept=".tle,.txt,.json,.csv" /></label>`}
     <p role="status">${sends ? "It is sent and checked …" : kept}</p><${Said} text=${said} /></section>`;

@@ -3,6 +3,7 @@
 import { post, read } from "/box.js";
 import { drag, keyed, moved } from "/drag.js";
 import { number } from "/numbers.js";
+import { hindrance } from "/orders.js";
 import { act, html, useEffect, useEvery, useRef, useState } from "/ui.js";
 
 const EVERY_MS = 15_000, CHANGED = "rotator-favourites";
@@ -50,7 +51,8 @@ function Edited({ one, place, list, grab, put }) {
     <button type="button" aria-label=${`Remove ${one.name}`} onClick=${() => put(list.filter((each) => each !== one))}>×</button></li>`;
 }
 
-export function Favourites({ now, station, say }) {
+export function Favourites({ now, hello, station, say }) {
+  const why = hindrance(now, hello);
   const [list, setList] = useState([]), [edits, setEdits] = useState(false), [name, setName] = useState(""), [target, setTarget] = useState(""), [undo, setUndo] = useState(null), rows = useRef(null), changes = useRef(0), atBox = useRef([]), last = useRef(Promise.resolve());
   // An answer that a change of this browser has overtaken shows nothing.
   const took = (favourites, begun) => {
@@ -84,7 +86,7 @@ export function Favourites({ now, station, say }) {
   const lost = (each) => !station.where && !direction(each.target) && !["park", "plan"].includes(each.target);
   const grab = (event, from) => drag(event, () => [...rows.current.children], list, from, setList, (order) => put(order));
   return html`<section class="favourites" aria-label="Favourites"><div class="chips">
-    ${!edits && list.map((each) => html`<button type="button" key=${each.name} class="favourite" disabled=${lost(each)} title=${lost(each) ? "The box does not know where it stands" : each.target}
+    ${!edits && list.map((each) => html`<button type="button" key=${each.name} class="favourite" disabled=${lost(each) || why !== ""} title=${why || (lost(each) ? "The box does not know where it stands" : each.target)}
       aria-pressed=${now.status.tracks?.name.toLowerCase() === each.target.toLowerCase()} onClick=${() => act(press(each.target), say)}>${each.name}</button>`)}
     <button type="button" class="quiet" aria-expanded=${edits} onClick=${() => setEdits(!edits)}>${edits ? "Done" : "Edit favourites"}</button>
     ${edits && undo && html`<button type="button" class="quiet" onClick=${() => (put(undo), setUndo(null))}>Undo</button>`}</div>

@@ -107,12 +107,13 @@ export function Track({ now, known, say }) {
   };
   const tracks = now.status.tracks, said = trackingSaid(now.tracking);
   return html`<form class="track" onSubmit=${track}>
-    <label>Track<input required maxlength="100" placeholder=${known ? "ISS, Moon, JN58td, Japan, VK" : "the box does not know its place"} value=${name}
+    <label>Track<input required maxlength="100" placeholder=${known ? "ISS, Moon, JN58td, Japan, VK" : "180 45"} value=${name}
       onInput=${(event) => setName(event.target.value)} /></label>
     <button type="submit">${place ? `Short path ${Math.round(place.azimuth_deg) % 360}°` : "Track"}</button>
     ${place && html`<button type="button" onClick=${() => act(post("track", { target: `${name.trim()} long` }), say)}>Long path ${Math.round(place.azimuth_deg + 180) % 360}°</button>
       <span class="hint-line">${place.place[0].toUpperCase()}${place.place.slice(1)}, ${place.km} km</span>`}
     ${tracks && html`<button type="button" onClick=${() => act(post("track", { target: "off" }), say)}>End ${tracks.name}</button>`}
+    ${!known && html`<p class="hint-line">Directions alone, because the box does not know where it stands: <a href="#setup">tell it</a>.</p>`}
     ${said && html`<p class="hint-line" role="status">${said}</p>`}
   </form>`;
 }

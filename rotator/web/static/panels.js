@@ -124,5 +124,5 @@ export function Links({ now }) {
   return html`<section class="links"><h2>Links</h2><ul>
     ${now.links.map((link) => html`<li class=${link.out ? "out" : ""}><b>${link.name}</b> <span>${link.where}</span>
       <span class="state">${link.state}</span>${link.heard && html`<code>${link.heard}</code>`}</li>`)}
-    ${!now.links.length && html`<li>The file has no [[link]]: no program can connect. <a href="#setup">Setup, step 9</a></li>`}</ul></section>`;
+    ${!now.links.length && html`<li>The file has no [[link]]: no program can connect. <a href="#setup/9">Setup, step 9</a></li>`}</ul></section>`;
 }

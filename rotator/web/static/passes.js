@@ -7,6 +7,7 @@ import { Track } from "/hand.js";
 import { number, NumberField } from "/numbers.js";
 import { PlanTable, usePasses } from "/plan.js";
 import { Timeline } from "/timeline.js";
+import { Orders } from "/orders.js";
 import { act, html, useEffect, useState } from "/ui.js";
 
 const ROWS = 12, MOST_ROWS = 100;
@@ -49,24 +50,24 @@ export function Passes({ now: box, station, hello, say }) {
   const shown = (passes ?? []).filter((pass) => pass.max_el_deg >= (number(leastDeg) ?? 0) && !(pass.los && new Date(pass.los) < now));
   return html`<div class="views"><section class="log"><h2>Track</h2>
     <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking.split(":")[0]] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}</p>
-    ${paired && html`<div class="chips" role="group" aria-label="Track">
-      ${BODIES.map((name) => html`<button type="button" aria-pressed=${tracks?.name === name} onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
-      <button type="button" onClick=${() => track("plan")}>Follow the plan</button>
-      <button type="button" onClick=${() => track("off")}>Track nothing</button></div>
+    ${paired && html`<${Orders} now=${box} hello=${hello}><div class="chips" role="group" aria-label="Track">
+      ${BODIES.map((name) => html`<button type="button" disabled=${!station.where} aria-pressed=${tracks?.name === name} onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
+      ${passes?.some((pass) => pass.plan) && html`<button type="button" onClick=${() => track("plan")}>Follow the plan</button>`}
+      ${!/^(off|ended)/.test(box.tracking) && html`<button type="button" onClick=${() => track("off")}>Track nothing</button>`}</div>
       <${Track} now=${box} known=${station.where} say=${say} />
-      <label class="file">Track a table of directions: CSV with t,az,el<input type="file" onChange=${trackTable} accept=".csv,.txt" /></label>`}
+      <label class="file">Track a table of directions: CSV with t,az,el<input type="file" onChange=${trackTable} accept=".csv,.txt" /></label><//>`}
     </section>
     <section class="log"><${Timeline} now=${box} station=${station} hello=${hello} say=${say} coming=${coming} />
       ${passes && html`<details class=${waits ? "old" : ""}><summary>The plan as a list</summary><${PlanTable} passes=${passes} /></details>`}</section>
     <section class="log passes"><h2>Passes of the next day</h2>
     <p>Error: how far a satellite may be off, from the age of its elements.</p>
     <${NumberField} label="Passes that reach, in degrees" least="0" value=${leastDeg} onInput=${setLeastDeg} />
-    <p class="said" role="status">${station.where ? fault : html`The box does not know where it stands: <a href="#setup">Setup, step 8</a>.`}</p>
-    ${shown.length > 0 && html`<table><thead><tr><th scope="col">satellite</th><th scope="col">rises</th><th scope="col" class="wide">at</th>
+    <p class="said" role="status">${station.where ? fault : html`The box does not know where it stands: <a href="#setup">tell it</a>.`}</p>
+    ${shown.length > 0 && html`<${Orders} now=${box} hello=${hello} quiet><table><thead><tr><th scope="col">satellite</th><th scope="col">rises</th><th scope="col" class="wide">at</th>
       <th scope="col" class="wide">for</th><th scope="col">highest</th><th scope="col" class="wide">from, to</th><th scope="col">error</th><th scope="col">track</th></tr></thead>
-      <tbody>${shown.slice(0, rows).map((pass) => html`<${Row} key=${pass.name + pass.tca} pass=${pass} now=${now} paired=${paired} tracked=${tracks?.name === pass.name} track=${track} beam=${station.beam_deg} />`)}</tbody></table>`}
+      <tbody>${shown.slice(0, rows).map((pass) => html`<${Row} key=${pass.name + pass.tca} pass=${pass} now=${now} paired=${paired} tracked=${tracks?.name === pass.name} track=${track} beam=${station.beam_deg} />`)}</tbody></table><//>`}
     ${shown.length > rows && html`<p><button type="button" onClick=${() => setRows(MOST_ROWS)}>All ${Math.min(shown.length, MOST_ROWS)} passes</button></p>`}
     ${passes !== null && !shown.length && html`<p>No pass is that high.</p>`}</section>
     <${Flown} tracked=${tracks?.name} />
-    <${Elements} paired=${paired} changed=${again} /></div>`;
+    <${Elements} now=${box} paired=${paired} changed=${again} /></div>`;
 }

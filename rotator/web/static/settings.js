@@ -71,7 +71,7 @@ export function NoFile({ settings: { file, busy, change }, moving }) {
 }
 
 /** Lines that change: + and - at their beginning. */
-export function Diff({ rows, label }) {
+function Diff({ rows, label }) {
   return html`<pre class="diff" tabindex="0" role="region" aria-label=${label}>${rows.map((row) => html`<span class=${row[0] === "+" ? "new" : row[0] === "-" ? "gone" : ""}>${row || " "}</span>`)}</pre>`;
 }
 
@@ -137,9 +137,9 @@ const worded = (value) => value != null && typeof value === "object" && !Array.i
   : Array.isArray(value) && value.some((each) => Array.isArray(each)) ? JSON.stringify(value) : Array.isArray(value) ? value.join(", ") : String(value);
 
 /** What would change: each key with both values and its meaning. The lines of the file are there for who wants them. */
-function Changes({ changes, diff, settings: { tables, file } }) {
-  const about = (place) => tables.find((table) => same(table.path, place.slice(0, -1).filter((part) => typeof part === "string")))?.keys.find((of) => of.key === place.at(-1));
-  const without = (place, unit, usual = worded(at(file.in_force, place) ?? "")) => (usual === "" ? "not set" : `left out, so ${usual}${unit}`);
+export function Changes({ changes, diff, settings: { tables, file } }) {
+  const about = (place) => tables?.find((table) => same(table.path, place.slice(0, -1).filter((part) => typeof part === "string")))?.keys.find((of) => of.key === place.at(-1));
+  const without = (place, unit, usual = worded(at(file?.in_force ?? {}, place) ?? "")) => (usual === "" ? "not set" : `left out, so ${usual}${unit}`);
   return html`${changes.length ? html`<table class="changes"><thead><tr><th scope="col">setting</th><th scope="col">now</th><th scope="col">then</th></tr></thead>
     <tbody>${changes.map(({ place, before, after }) => {
       const of = about(place), whole = typeof place.at(-1) === "number", unit = !of?.unit ? "" : of.unit === "°" ? "°" : ` ${of.unit}`;

@@ -4,6 +4,7 @@ import { boxTime, post } from "/box.js";
 import { drag, keyed, moved } from "/drag.js";
 import { keep } from "/favourites.js";
 import { clock, how, useFollowed, usePasses } from "/plan.js";
+import { Orders } from "/orders.js";
 import { act, html, useEffect, useMemo, useRef, useState } from "/ui.js";
 
 const HOUR_MS = 3_600_000, HOURS = 25, LOOK_MS = 600_000, LEAST_DEG = 10, OTHERS = 8;
@@ -59,9 +60,10 @@ function Bar({ pass, begin, chosen, reached, onChoose, onKey, onGrab }) {
 }
 
 /** What is known of a pass, and what one may do with it. */
-function Chosen({ pass, rivals, paired, tracked, onFly, say }) {
+function Chosen({ pass, rivals, now, hello, onFly, say }) {
+  const { paired } = hello, tracked = now.status.tracks?.name === pass.name;
   return html`<div class="chosen"><p role="status"><b>${pass.name}</b> ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${pass.aos_az_deg == null ? "" : `, from ${Math.round(pass.aos_az_deg)}°`}${pass.los_az_deg == null ? "" : ` to ${Math.round(pass.los_az_deg)}°`}. ${pass.plan ? html`<span class=${state(pass)}>In the plan: ${how(pass.plan)}.</span>` : "Not in the plan."}</p>
-    ${paired && html`<div class="chips"><button type="button" aria-pressed=${tracked} onClick=${() => act(post("track", { target: pass.name }), say)}>${tracked ? `${pass.name} is tracked` : `Track ${pass.name}`}</button>
+    ${paired && html`<div class="chips"><${Orders} now=${now} hello=${hello}><button type="button" aria-pressed=${tracked} onClick=${() => act(post("track", { target: pass.name }), say)}>${tracked ? `${pass.name} is tracked` : `Track ${pass.name}`}</button><//>
       <button type="button" onClick=${() => act(keep(pass.name.slice(0, 30), pass.name), say)}>Keep as a favourite</button>
       ${rivals.map((name) => html`<button type="button" key=${name} onClick=${() => onFly(name)}>${pass.plan.flown ? `Rather fly ${name}` : `Fly it rather than ${name}`}</button>`)}</div>`}</div>`;
 }
@@ -136,10 +138,10 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
       <div class="behind front" aria-hidden="true"><i class="now" style=${{ left: share(at) }}></i></div>
     </div></div>`}
     ${every.length > most && html`<p><button type="button" aria-expanded=${all} onClick=${() => showAll(!all)}>${all ? "Fewer satellites" : `${every.length - most} more satellites`}</button></p>`}
-    ${pass ? html`<${Chosen} pass=${pass} rivals=${rivalsOf(pass, passes)} paired=${paired} tracked=${now.status.tracks?.name === pass.name} say=${say}
+    ${pass ? html`<${Chosen} pass=${pass} rivals=${rivalsOf(pass, passes)} now=${now} hello=${hello} say=${say}
       onFly=${(name) => (pass.plan.flown ? prefer(name, pass.name) : prefer(pass.name, name))} />`
     : rows.length > 0 && html`<p class="about">Press a bar to see more of a pass.${paired && followed.length > 1 ? " Drag the satellite that counts more to the top: where two are up at once, a minute of the first is worth more." : ""}</p>`}
-    ${!followed.length && station.where && html`<p class="about">The box flies passes by itself once it follows satellites: <a href="#setup">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
-    <p class="about" role="status">${!station.where ? html`The box does not know where it stands: <a href="#setup">Setup, step 8</a>.` : fault || (waits ? "The box computes passes and plan …" : passes && !rows.length ? "No pass is high enough." : "")}</p>
+    ${!followed.length && station.where && html`<p class="about">The box flies passes by itself once it follows satellites: <a href="#setup/8">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
+    <p class="about" role="status">${!station.where ? html`The box does not know where it stands: <a href="#setup">tell it</a>.` : fault || (waits ? "The box computes passes and plan …" : passes && !rows.length ? "No pass is high enough." : "")}</p>
     <p class="only-read" role="status">${told}</p></section>`;
 }
