@@ -19,7 +19,7 @@ JOG, POINT = "Hold to turn CW", "Point there"
 
 def may(page: Page, *, jog: bool, point: bool) -> None:
     """Wait until these buttons can be pressed, or cannot."""
-    for name, can in ((JOG, jog), (POINT, point), ("Park", point)):
+    for name, can in ((JOG, jog), (POINT, point), ("To the park position", point)):
         button = page.get_by_role("button", name=name, exact=True)
         expect(button).to_be_enabled() if can else expect(button).to_be_disabled()
 
