@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from playwright.sync_api import expect
 
 from tests.page.conftest import Station, headline, pair, violations
+from tests.page.test_setup import in_sight
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -62,3 +63,5 @@ def test_a_box_without_a_place_offers_no_target_in_the_sky(start: Start, visit: 
     page.get_by_text("Directions alone, because the box does not know where it stands").wait_for()
     assert page.get_by_role("button", name="Follow the plan").count() == 0
     assert page.get_by_role("button", name="Track nothing").count() == 0
+    page.get_by_role("link", name="Setup, step 8").click()
+    in_sight(page, page.locator(".step[open] > summary", has_text="8. Place and time"))

@@ -104,9 +104,9 @@ function Clock({ now, say }) {
 
 /** `#setup/8` opens step 8. */
 function Step({ number, title, done, children }) {
-  const named = location.hash === `#setup/${number}`, [shown, show] = useState(named), self = useRef(null);
-  useEffect(() => void (named && (show(true), intoSight(self.current))), [named]);
-  return html`<details class="step" ref=${self} open=${shown} onToggle=${(event) => show(event.currentTarget.open)}><summary><b>${number}. ${title}</b> <small>${done}</small></summary>${shown && html`<div>${children}</div>`}</details>`;
+  const named = location.hash === `#setup/${number}`, [shown, show] = useState(named);
+  useEffect(() => void (named && show(true)), [named]);
+  return html`<details class="step" open=${shown} onToggle=${(event) => show(event.currentTarget.open)}><summary><b>${number}. ${title}</b> <small>${done}</small></summary>${shown && html`<div>${children}</div>`}</details>`;
 }
 
 export function Setup({ now, hello, station, live, fresh, say }) {
@@ -114,6 +114,9 @@ export function Setup({ now, hello, station, live, fresh, say }) {
   const { file } = settings, made = ready(settings), of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
   const calibrated = (axis) => !now.status[axis].fitted ? "not fitted" : (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
   const missing = html`<${Missing} settings=${settings} />`, known = station.where !== null, begins = useRef(!known).current;
+  const step = location.hash.split("/")[1];
+  // What stands above it grows when the settings come.
+  useEffect(() => void (made && step && intoSight(document.querySelector(`.step:nth-of-type(${step})`))), [made, step]);
   const placed = made && html`<${Place} ...${of} known=${known} />`;
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
   return html`<${Guide} now=${now} station=${station} live=${live} fresh=${fresh} settings=${settings} /><div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
