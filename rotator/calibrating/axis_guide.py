@@ -134,7 +134,7 @@ class AxisGuide(Guide):
         phrases, there = self._phrases, direction is Direction.PLUS
         prompt = phrases.turn_plus if there else phrases.turn_minus
         title = phrases.page_turn_plus if there else phrases.page_turn_minus
-        page = Question(title, phrases.page_direction_check if there else (), "plus" if there else "minus")
+        page = Question(title, phrases.direction_check if there else (), "plus" if there else "minus")
         return (yield from self._ask(prompt, phrases.press_first, page))
 
     # --- a reading

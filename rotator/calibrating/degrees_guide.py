@@ -42,7 +42,7 @@ class DegreesGuide(AxisGuide):
         homes, limits = ("End stop",) * self._traits.homes, ("Lowest angle", "Highest angle")
         self.stages = ("Directions", *homes, *(() if self._traits.endless else limits), "Save")
         self.stage = "Directions"
-        self._lead("", *phrases.direction_check)
+        self._head("1. Directions.", *phrases.direction_check)
         if self._traits.homes:
             yield from self._check_by_eye()
             if (yield from self._times()):
@@ -138,9 +138,9 @@ class DegreesGuide(AxisGuide):
         return False
 
     def _find_end_stop(self) -> Steps:
-        self._lead("", "2. The end stop, where the count begins.", *self._phrases.homing)
+        self._head("2. The end stop, where the count begins.", *self._phrases.homing, "Space or s stops it.")
         self.stage = "End stop"
-        shown = "home", self._phrases.page_homing
+        shown = "home", self._phrases.homing
         if not needs_homing(self._axis):
             # A count made with exchanged relays is not the antenna's angle.
             question = f"It says that it stands at {self._angle_text()}. Look for the stop all the same?"
@@ -159,7 +159,7 @@ class DegreesGuide(AxisGuide):
         if self._fault_text:
             self._orders.append(Stop())
         self._orders.append(Home(self.facts.axis))
-        page = Question("It looks for its stop: watch the antenna.", picture="home", choices=(HALT,))
+        page = Question("It looks for its stop.", self._phrases.homing, "home", (HALT,))
         self._show("It looks for its stop; s stops it.", page)
         began_s = self._now_s
         while self._now_s - began_s < ORDER_TAKEN_S or self._axis.homing or self._axis.moving:
@@ -175,14 +175,11 @@ class DegreesGuide(AxisGuide):
     # --- limits
 
     def _limit(self, step: int, which: str, now_deg: float, least_deg: float) -> Generator[None, None, float]:
-        self._lead(
-            "",
-            f"{step}. The {which} angle that it may be sent to: drive it there, or type it.",
-            *(f"   {line}" for line in self._phrases.page_limit),
-        )
+        limit = self._phrases.limit
+        self._head(f"{step}. The {which} angle that it may be sent to: drive it there, or type it.", *limit)
         self.stage = f"{which.capitalize()} angle"
         title, picture = f"The {which} angle that it may be sent to?", "low" if which == "lowest" else "high"
-        hint = ("Turn it there, or type the angle.", *self._phrases.page_limit)
+        hint = ("Turn it there, or type the angle.", *limit)
         page = Question(title, hint, picture, (Choice("Where it stands now", "\r"),), number=True, proposed=now_deg)
         while True:
             prompt = f"Enter: here; or an angle (in the file: {now_deg:g}):"

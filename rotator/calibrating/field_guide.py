@@ -14,6 +14,7 @@ from hw.ports import Ellipse
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.entries import Word
 from rotator.calibrating.guide import NOTHING_SAVED, Steps
+from rotator.calibrating.question import Choice, Question
 from rotator.calibrating.results import FieldLearnt
 from rotator.control.sky.equations import solved
 
@@ -21,6 +22,7 @@ Field = tuple[float, float]
 
 APART_UT = 1.0
 """A field nearer to the last one that was kept is not kept: an antenna that stands must not count more."""
+ROUND = Choice("It has turned all the way", "\r")
 SECTORS, LEAST_SECTORS = 12, 10
 LEAST_POINTS = 40
 MOST_OFF = 0.1
@@ -75,15 +77,14 @@ class FieldGuide(AxisGuide):
             self._felt.append(field_ut)
 
     def _path(self) -> Steps:
-        self._say(
-            "The compass learns the iron around it. The antenna has to turn through its whole range, once.",
-            *self._phrases.introduction[1:],
-        )
+        why = "The compass learns the iron around it. The antenna has to turn through its whole range, once."
+        self._lead(why, *self._phrases.introduction[1:])
+        page = Question("Turn it through its whole range, once.", (why,), "between", (ROUND,))
         yield
         yield from self._await_axis()
         while True:
             accepts = "Turn it through its whole range; then Enter."
-            if (yield from self._ask(f"{accepts[:-1]}:", accepts)) is not Word.ENTER:
+            if (yield from self._ask(f"{accepts[:-1]}:", accepts, page)) is not Word.ENTER:
                 continue
             try:
                 ellipse, off_deg = fitted(self._felt)
@@ -91,11 +92,12 @@ class FieldGuide(AxisGuide):
                 self._say(f"Not yet: {reason}.")
                 continue
             (x, y), (a, b) = ellipse.centre_ut, ellipse.radius_ut
-            self._say(
+            learnt = (
                 f"Iron adds {x:.1f} µT ahead and {y:.1f} µT to the left; the earth's field is {a:.1f} and {b:.1f} µT.",
                 f"   The headings were {off_deg:.1f}° beside the ring (rms).",
             )
-            if (yield from self._agrees("Save it?")):
+            self._lead(*learnt)
+            if (yield from self._agrees("Save it?", "save", tuple(line.strip() for line in learnt))):
                 self.result = FieldLearnt(ellipse)
             else:
                 self._say(NOTHING_SAVED)

@@ -265,6 +265,10 @@ class Guide:
         """In a terminal, what a view with buttons shows with its question."""
         self._lines += lines
 
+    def _head(self, head: str, *below: str) -> None:
+        """In a terminal, the head of a new part and what is to be known for it."""
+        self._lead("", head, *(f"   {line}" for line in below))
+
 
 class SteeringGuide(Guide):
     """With it a person steers the whole antenna, by presses for either axis. An answer waits until it stands again.

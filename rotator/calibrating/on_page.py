@@ -109,7 +109,8 @@ class PageCalibration:
 
     def outcome(self) -> dict[str, Any]:
         """What the page says when the calibration is over."""
-        return {"axis": self.axis.value, "saved": self._saved, "said": [*self._learnt, *self._guide.remarks]}
+        said, halfway = [*self._learnt, *self._guide.remarks], isinstance(self._guide, FieldGuide)
+        return {"axis": self.axis.value, "saved": self._saved, "halfway": halfway, "said": said}
 
     async def run(self, loop: ControlLoop, sensors: Mapping[Axis, AngleSensor]) -> None:
         """Until the guide ends. Its result is saved then. The motor stands."""

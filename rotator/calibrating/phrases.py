@@ -74,37 +74,23 @@ class Phrases:
         "  Space or s stops; ? says what is accepted; q or Ctrl-C leaves: the motors stop, nothing is saved.",
     )
     direction_check = _Lines(
-        "1. Directions. The antenna should be in the middle of its travel, away from both stops.",
-        "   Turn it {plus} until you have clearly seen which way it goes.",
+        "The antenna should be in the middle of its travel, away from both stops.",
+        "Turn it {plus} until you have clearly seen which way it goes.",
     )
     turn_plus = _Sentence("Press {plus_key} ({plus}) and watch the antenna.")
     turn_minus = _Sentence("Now back: press {minus_key} ({minus}).")
     page_turn_plus = _Sentence("Turn it {plus}.")
     page_turn_minus = _Sentence("Now turn it back, {minus}.")
-    page_direction_check = _Lines(
-        "The antenna should be in the middle of its travel, away from both stops. Hold the button until you have "
-        "clearly seen which way it goes.",
-    )
     page_low_end = _Sentence("Turn it to its {low_end}.")
     page_high_end = _Sentence("Turn it to its {high_end}.")
-    page_end = _Lines("To its stop, or to a mark you trust. Just before the stop is better than hard against it.")
-    page_between = _Lines(
-        "Only if the pot is not straight: turn it to an angle that you know, as many as you like. Come to each from "
-        "the same side: then the gear's play does not count.",
+    end = _Lines("To its stop, or to a mark you trust.", "Just before the stop is better than hard against it.")
+    between = _Lines(
+        "If the pot is not straight: drive to an angle that you know, as many as you like.",
+        "Come to each from the same side: then the gear's play does not count.",
     )
     directions_right = _Sentence("Its buttons turn it the right way, {plus} and {minus}.")
     no_ends = _Sentence("The {axis} has no ends: it may be sent all the way round.")
-    page_limit = _Lines(
-        "A degree or two before its stop, or earlier, where cables, guy wires or a chimney are in the way."
-    )
-    page_homing = _Lines(
-        "It turns {minus} to its stop, a little back, and there again. The box cannot tell a stop from a branch that "
-        "the antenna hangs in; you can: watch it.",
-    )
-    page_stopwatch = _Lines(
-        "The box turns the {axis} from stop to stop, and you press when it has arrived and stands there. The rotor's "
-        "own end switches must work.",
-    )
+    limit = _Lines("A degree or two before its stop, or earlier, where cables, guy wires or a chimney are in the way.")
     press_first = _Sentence("Turn it first: {plus_key} is {plus}, {minus_key} is {minus}.")
     drive_then_read = _Sentence(
         "Drive there with {plus_key} ({plus}) and {minus_key} ({minus}); then Enter reads it.",
@@ -125,35 +111,22 @@ class Phrases:
         "board is mounted (rotator help sensors). Nothing is saved.",
     )
     homing = _Lines(
-        "   Watch the antenna: it turns {minus} to its stop, a little back, and there again.",
-        "   The box cannot tell a stop from a branch that the antenna hangs in; you can. Space or s stops it.",
+        "Watch the antenna: it turns {minus} to its stop, a little back, and there again.",
+        "The box cannot tell a stop from a branch that the antenna hangs in; you can.",
     )
     stopwatch = _Lines(
-        "2. The times. The box turns the {axis} from stop to stop, and you watch the antenna: when it has arrived and",
-        "   stands there, press Enter. The rotor's own end switches must work. Space or s stops the motor at any time.",
+        "The box turns the {axis} from stop to stop, and you watch the antenna: answer when it has arrived and stands.",
+        "The rotor's own end switches must work.",
     )
     to_low_stop = _Sentence("First {minus}, to its stop. This way is not timed.")
-    time_to_high = _Sentence("Now {plus}, to the other stop. The watch runs from the motor's start to your Enter.")
+    time_to_high = _Sentence("Now {plus}, to the other stop. The watch runs from the motor's start to your answer.")
     time_to_low = _Sentence("And back, {minus}.")
     too_slow = _Sentence(
         "if it was still on its way, the rotor is slower than the file says: write a smaller {axis}.speed_dps,",
         "take the times out, and begin again.",
     )
-    page_to_low_stop = _Sentence("First it turns {minus}, to its stop. This way is not timed.")
-    page_time_to_high = _Sentence("Now it turns {plus}, to its other stop, and the watch runs.")
-    page_time_to_low = _Sentence("And back, {minus}, with the watch.")
-    to_low_end = _Lines(
-        "2. The {low_end}. Drive it there with {minus_key} ({minus}): to its stop, or to a mark you trust.",
-        "   Just before the stop is better than hard against it.",
-    )
-    to_high_end = _Lines(
-        "3. The {high_end}. Drive it there with {plus_key} ({plus}): to its stop, or to a mark you trust.",
-        "   Just before the stop is better than hard against it.",
-    )
-    between = _Lines(
-        "4. Points between, if the pot is not straight: drive to an angle that you know, as many as you like.",
-        "   Come to each from the same side: then the gear's play does not count.",
-    )
+    to_low_end = _Sentence("2. The {low_end}. Drive it there with {minus_key} ({minus}).")
+    to_high_end = _Sentence("3. The {high_end}. Drive it there with {plus_key} ({plus}).")
 
     def __init__(self, words: dict[str, str]) -> None:
         capitals = {name.upper(): words[name].upper() for name in ("plus_key", "minus_key")}

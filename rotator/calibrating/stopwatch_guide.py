@@ -19,6 +19,7 @@ from rotator.exchange.orders import Confirm, Jog
 RENEWED_S = 0.5
 """The motor is ordered to go on so often, for PRESS_S each time: without this guide it stops."""
 PRESS_S = 2.0
+WAYS = Direction.MINUS, Direction.PLUS, Direction.MINUS
 STARTS_S = 5.0
 """A relay closes within this time: a reversal has a pause, and its brake may need one."""
 ARRIVED = Choice("It stands at its stop", "\r")
@@ -40,8 +41,8 @@ class StopwatchGuide(DegreesGuide):
 
     def _times(self) -> Generator[None, None, bool]:
         facts, words = self.facts, self._phrases
-        self._lead("", *self._phrases.stopwatch)
-        hint = self._phrases.page_stopwatch
+        hint = words.stopwatch
+        self._head("2. The times.", *hint, "Enter is that answer; space or s stops the motor at any time.")
         self.stage = "End stop"
         if not (yield from self._agrees("Measure the times now?", "times", hint, yes="Measure them", no="Not now")):
             return False
@@ -67,15 +68,10 @@ class StopwatchGuide(DegreesGuide):
         """The times up and down; None: stopped, or not likely. Raises Abandoned."""
         took_s: list[float] = []
         words = self._phrases
-        for direction, text, page in (
-            (Direction.MINUS, words.to_low_stop, words.page_to_low_stop),
-            (Direction.PLUS, words.time_to_high, words.page_time_to_high),
-            (Direction.MINUS, words.time_to_low, words.page_time_to_low),
-        ):
+        for direction, text in zip(WAYS, (words.to_low_stop, words.time_to_high, words.time_to_low), strict=True):
             self._lead("", text)
-            picture = "minus" if direction is Direction.MINUS else "plus"
-            prompt = "y: the motor starts; n: leave."
-            if not (yield from self._agrees(page, picture, yes="Start the motor", no="Leave", prompt=prompt)):
+            picture, prompt = ("minus", "plus")[direction is Direction.PLUS], "y: the motor starts; n: leave."
+            if not (yield from self._agrees(text, picture, yes="Start the motor", no="Leave", prompt=prompt)):
                 raise Abandoned(LEFT)
             way_s = yield from self._timed(direction)
             fault = self._fault_text  # a stop acknowledges it

@@ -6,7 +6,7 @@ from top to bottom (`_path`).
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+from collections.abc import Generator
 from dataclasses import replace
 
 from hw.ports import Direction
@@ -61,7 +61,7 @@ class TableGuide(AxisGuide):
     def _check_plus(self) -> Generator[None, None, bool]:
         """Returns whether the reading rises with the degrees."""
         phrases = self._phrases
-        self._lead("", *phrases.direction_check)
+        self._head("1. Directions.", *phrases.direction_check)
         change = yield from self._turn(Direction.PLUS, 0)
         if not (yield from self._agrees(phrases.did_it_turn, "plus")):
             raise Abandoned(phrases.swap)
@@ -99,11 +99,11 @@ class TableGuide(AxisGuide):
                 self._say("There is no point to take back.")
 
     def _end(
-        self, table: TableDraft, where: str, drive_to: Sequence[str], proposed_deg: float, page: Question
+        self, table: TableDraft, where: str, drive_to: str, proposed_deg: float, page: Question
     ) -> Generator[None, None, TableDraft | None]:
         """The table with this end; None: the last point is to be taken back."""
-        self._lead("", *drive_to)
-        page = replace(page, hint=self._phrases.page_end, choices=(READ, UNDO) if table.points else (READ,))
+        self._head(drive_to, *self._phrases.end)
+        page = replace(page, hint=self._phrases.end, choices=(READ, UNDO) if table.points else (READ,))
         while True:
             prompt, accepts = f"At the {where}? Enter or y reads it.", self._phrases.drive_then_read
             event = yield from self._ask(prompt, accepts, page, may_go_back=True)
@@ -127,8 +127,8 @@ class TableGuide(AxisGuide):
     def _between(self, table: TableDraft, *, first: bool) -> Generator[None, None, TableDraft | None]:
         """The table with one more point, or as it is where there are no more; None: take the last point back."""
         if first:
-            self._lead("", *self._phrases.between)
-        page = Question("Another point between?", self._phrases.page_between, "between", (NO_MORE, READ, UNDO))
+            self._head("4. Points between.", *self._phrases.between)
+        page = Question("Another point between?", self._phrases.between, "between", (NO_MORE, READ, UNDO))
         while True:
             prompt = "Another point? Enter reads; f when there are no more; b takes the last back."
             accepts = f"{self._phrases.drive_then_read} f or n: there are no more points."
@@ -175,7 +175,7 @@ class TableGuide(AxisGuide):
         low_deg, high_deg = table.points[0].angle_deg, table.points[-1].angle_deg
         within = f"Between which angles may it be sent? They lie within {low_deg:g} to {high_deg:g}."
         self._lead("", within)
-        lowest = Question("The lowest angle that it may be sent to?", (within, *self._phrases.page_limit), "limits")
+        lowest = Question("The lowest angle that it may be sent to?", (within, *self._phrases.limit), "limits")
         highest = replace(lowest, title="The highest angle that it may be sent to?", choices=BACK)
         while True:
             least = yield from self._number("Lowest angle:", min(max(self.facts.min_deg, low_deg), high_deg), lowest)

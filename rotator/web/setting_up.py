@@ -17,6 +17,7 @@ from pydantic import Field
 from typing_extensions import TypedDict
 
 from hw.ports import Axis, HardwareError
+from rotator.calibrating.question import Question
 from rotator.config.model import Config
 from rotator.protocols.reference.programs import PROGRAMS
 from rotator.setup.answered import Asked, as_they_stand, asked
@@ -66,25 +67,14 @@ _Program = TypedDict("_Program", {"name": str, "protocols": Sequence[str], "wher
 _Programs = TypedDict("_Programs", {"programs": list[_Program]})
 
 
-_Outcome = TypedDict("_Outcome", {"axis": str, "saved": bool, "said": Sequence[str]})
-_Button = TypedDict("_Button", {"words": str, "keys": Annotated[str, the("to send back")]})
-
-
-class _ToAnswer(TypedDict):
-    title: str
-    hint: Sequence[str]
-    picture: str
-    choices: Sequence[_Button]
-    turns: Annotated[bool, the("a button may be held to turn the axis, as /api/live says")]
-    number: Annotated[bool, the("an angle is an answer: it and \\r are to be sent")]
-    proposed: float | None
+_Outcome = TypedDict("_Outcome", {"axis": str, "saved": bool, "halfway": bool, "said": Sequence[str]})
 
 
 class _Guide(TypedDict):
     axis: Annotated[str | None, the("null: nothing is calibrated")]
     latest: NotRequired[Annotated[_Outcome | None, the("of the last calibration, where none runs")]]
     asked: NotRequired[Annotated[int, the("the number of the question")]]
-    question: NotRequired[_ToAnswer]
+    question: NotRequired[Annotated[Question, the("`turns`: a button may be held, as /api/live says")]]
     stage: NotRequired[str]
     step: NotRequired[int]
     steps: NotRequired[int]

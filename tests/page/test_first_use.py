@@ -215,7 +215,7 @@ def calibrates(finger: Finger, axis: int, plus: str, minus: str) -> None:
     finger.press("It stands there: read it")
     asked("Which angle")
     angle(high_deg)
-    asked("Another point?")
+    asked("Another point between")
     finger.press("No more points")
     asked("The lowest angle")
     finger.press("Take this angle")
