@@ -117,7 +117,7 @@ def _each(browser: Any, into: Path, paired: Any, view: str, high: int) -> None:
             page.goto(f"{URL}/api/" if view == "api" else f"{URL}/#{view}")
             match view:
                 case "":
-                    page.locator(".plot canvas").wait_for(state="attached")
+                    page.locator(".plot .turned").wait_for(state="attached")
                     page.locator(".key.next").wait_for()
                 case "sky":
                     page.locator(".plan td").first.wait_for()

@@ -43,7 +43,7 @@ SHORTEST_NAME, GAP = 8, 2
 
 
 def show_where(path: Path | None, words: Sequence[str], at_s: float | None, *, as_json: bool) -> None:
-    config, site, catalogue = _sky(path)
+    config, site, catalogue = read_sky(path)
     at_s = time.time() if at_s is None else at_s
     try:
         target = find(" ".join(words), site, catalogue)
@@ -76,7 +76,7 @@ def show_where(path: Path | None, words: Sequence[str], at_s: float | None, *, a
 def show_passes(
     path: Path | None, names: tuple[str, ...], from_s: float | None, hours: float, least_deg: float, *, as_json: bool
 ) -> None:
-    config, site, catalogue = _sky(path)
+    config, site, catalogue = read_sky(path)
     from_s = time.time() if from_s is None else from_s
     try:
         targets = [find(name, site, catalogue) for name in names] or _all(site, catalogue)
@@ -107,7 +107,7 @@ def show_passes(
 
 
 def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json: bool) -> None:
-    config, site, catalogue = _sky(path)
+    config, site, catalogue = read_sky(path)
     if not config.sky.follow:
         raise CommandFailed(sky_plan.NOTHING)
     followed = sky_plan.followed_by(config, site, catalogue)
@@ -130,7 +130,7 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
         click.echo(line)
 
 
-def _sky(path: Path | None) -> tuple[Config, Site, Catalogue]:
+def read_sky(path: Path | None) -> tuple[Config, Site, Catalogue]:
     """Raises CommandFailed without a place. Says which files could not be read."""
     file = path or next((each for each in (INSTALLED, Path(HERE)) if each.exists()), None)
     config = load(file)

@@ -12,6 +12,7 @@ JSON = Option(["--json", "as_json"], is_flag=True, help="Print as JSON.")
 FROM = Option(
     ["--from", "from_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."
 )
+AT = Option(["--at", "at_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out.")
 AHEAD = Option(["--hours"], type=HOURS, default=24.0, metavar="HOURS", help="How far ahead; 24 if left out.")
 
 WHERE = command(
@@ -19,7 +20,7 @@ WHERE = command(
     "sky:show_where",
     CONFIG,
     JSON,
-    Option(["--at", "at_s"], type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."),
+    AT,
     Argument(["words"], nargs=-1, required=True, metavar="NAME"),
     context_settings=ANY_WORDS,
     says="""Show where NAME is.
@@ -27,6 +28,18 @@ WHERE = command(
     NAME: ISS, 25544, so50, sun, moon, mars, "cas a", another station's locator or country, or AZ EL.
     """,
     examples=["rotator sky where moon --at 2026-12-24T18:00:00Z"],
+)
+UP = command(
+    "up",
+    "sky_up:show_up",
+    CONFIG,
+    JSON,
+    AT,
+    says="""Show what is above the horizon now.
+
+    Every satellite known, Sun and Moon; the highest first.
+    """,
+    examples=["rotator sky up"],
 )
 PASSES = command(
     "passes",
@@ -82,7 +95,7 @@ SKY = Commands(
     """,
     examples=["rotator sky where moon --config station.toml"],
 )
-SKY.under("Commands", WHERE, PASSES, PLAN, ELEMENTS)
+SKY.under("Commands", WHERE, UP, PASSES, PLAN, ELEMENTS)
 
 REHEARSE = command(
     "rehearse",

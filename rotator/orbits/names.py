@@ -31,6 +31,8 @@ OSCARS = {
     61781: "AO-123",
 }
 """By catalogue number: names of radio amateurs that public lists of elements leave out, now or at times."""
+_AMATEUR = re.compile(r"\b(?:[A-Z]O|RS)-?[0-9]{1,3}\b|\bISS\b")
+"""An OSCAR or a Radio Sputnik by its usual name, such as `OSCAR 7 (AO-7)`; and the space station."""
 _PARENTHESES = re.compile(r"\(([^()]*)\)")
 _CONDITION = re.compile(r"\[[^\[\]]*\]")
 """`NOAA 15 [B]`: some lists add whether it works, is a reserve, or is silent."""
@@ -46,6 +48,12 @@ def plain(name: str) -> str:
 def without_zero(name: str) -> str:
     """The same, and without the zero before a number: AO-07 is AO-7."""
     return _LEADING_ZERO.sub("", plain(name))
+
+
+def amateur_name(elements: Elements) -> str:
+    """The short name that radio amateurs have given it; empty: none."""
+    found = _AMATEUR.search(elements.name)
+    return OSCARS.get(elements.catalogue_number, "") or (found[0] if found else "")
 
 
 def spoken(elements: Elements) -> set[str]:

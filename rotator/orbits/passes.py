@@ -34,56 +34,61 @@ class Pass:
     highest: Sight
 
 
-def passes(target: Target, from_s: float, until_s: float, least_deg: float = 0.0) -> Iterator[Pass]:
+def passes(
+    target: Target, from_s: float, until_s: float, least_deg: float = 0.0, *, every_s: float = LOOK_S
+) -> Iterator[Pass]:
     """Each pass that lies at least partly between the two times, in order, with its whole length.
 
-    `least_deg`: passes that stay lower are left out. A satellite that has decayed has no passes.
+    `least_deg`: passes that stay lower are left out. A satellite that has decayed has no passes. `every_s`: between two
+    looks; what takes hours to cross the sky needs fewer.
     """
     height = _height(target)
     on_s = from_s if height(from_s) > 0 else None
-    at_s: float | None = from_s if on_s is None else _last_down_s(height, from_s)
+    at_s: float | None = from_s if on_s is None else _last_down_s(height, from_s, every_s)
     if at_s is None:  # it never rose
-        found = _pass(target, height, None, from_s)
+        found = _pass(target, height, None, from_s, every_s)
         if found.highest.elevation_deg >= least_deg:
             yield found
         at_s = found.los_s
     while at_s is not None:
-        rise = _next_rise(height, at_s, until_s)
+        rise = _next_rise(height, at_s, until_s, every_s)
         if rise is None:
             return
         aos_s = _crossing_s(height, *rise)
         if aos_s >= until_s:
             return
-        found = _pass(target, height, aos_s, rise[1])
+        found = _pass(target, height, aos_s, rise[1], every_s)
         if found.highest.elevation_deg >= least_deg:
             yield found
         at_s = None if found.los_s is None else found.los_s + EXACT_S
 
 
-def _next_rise(height: Callable[[float], float], from_s: float, until_s: float) -> tuple[float, float] | None:
+def _next_rise(
+    height: Callable[[float], float], from_s: float, until_s: float, every_s: float
+) -> tuple[float, float] | None:
     """A time at which it is down and a later one at which it is up, with one rise between them, before `until_s`."""
-    look_s, before, here = from_s, height(from_s - LOOK_S), height(from_s)
+    look_s, before, here = from_s, height(from_s - every_s), height(from_s)
     while look_s < until_s:
-        after = height(look_s + LOOK_S)
+        after = height(look_s + every_s)
         if after > 0:
-            return look_s, look_s + LOOK_S
+            return look_s, look_s + every_s
         if here >= max(before, after):  # it may rise and set between two looks
-            top_s = _highest_s(height, look_s - LOOK_S, look_s + LOOK_S)
+            top_s = _highest_s(height, look_s - every_s, look_s + every_s)
             if top_s > from_s and height(top_s) > 0:
-                return (look_s if look_s < top_s else max(from_s, look_s - LOOK_S)), top_s
-        look_s, before, here = look_s + LOOK_S, here, after
+                return (look_s if look_s < top_s else max(from_s, look_s - every_s)), top_s
+        look_s, before, here = look_s + every_s, here, after
     return None
 
 
-def _pass(target: Target, height: Callable[[float], float], aos_s: float | None, up_s: float) -> Pass:
+def _pass(target: Target, height: Callable[[float], float], aos_s: float | None, up_s: float, every_s: float) -> Pass:
     """The pass that is on at `up_s` and has risen at `aos_s`."""
     looks = [(height(up_s), up_s)]
     while looks[-1][0] > 0 and looks[-1][1] < up_s + LONGEST_S:
-        looks.append((height(looks[-1][1] + LOOK_S), looks[-1][1] + LOOK_S))
+        looks.append((height(looks[-1][1] + every_s), looks[-1][1] + every_s))
     los_s = _crossing_s(height, looks[-1][1], looks[-2][1]) if looks[-1][0] <= 0 else None
     highest_look_s = max(looks)[1]
     first_s, last_s = up_s if aos_s is None else aos_s, looks[-1][1] if los_s is None else los_s
-    tca_s = _highest_s(height, max(first_s, highest_look_s - LOOK_S), min(last_s, highest_look_s + LOOK_S))
+    tca_s = _highest_s(height, max(first_s, highest_look_s - every_s), min(last_s, highest_look_s + every_s))
     return Pass(
         name=target.name,
         aos_s=aos_s,
@@ -95,11 +100,11 @@ def _pass(target: Target, height: Callable[[float], float], aos_s: float | None,
     )
 
 
-def _last_down_s(height: Callable[[float], float], from_s: float) -> float | None:
+def _last_down_s(height: Callable[[float], float], from_s: float, every_s: float) -> float | None:
     """A time within the day before at which it was down; None: it was always up."""
     at_s = from_s
     while at_s > from_s - LONGEST_S:
-        at_s -= LOOK_S
+        at_s -= every_s
         if height(at_s) <= 0:
             return at_s
     return None

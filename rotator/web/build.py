@@ -106,16 +106,20 @@ def build_page(
         from rotator.web.favourites import FavouritesApi  # noqa: PLC0415
         from rotator.web.flown import FlownPictures  # noqa: PLC0415
         from rotator.web.help_api import help_groups  # noqa: PLC0415
+        from rotator.web.overhead import OverheadApi, overhead  # noqa: PLC0415
         from rotator.web.plan import Passes, Plan, command  # noqa: PLC0415
         from rotator.web.setting_up import SettingUpApi  # noqa: PLC0415
         from rotator.web.settings import SettingsApi  # noqa: PLC0415
         from rotator.web.webhook import Webhook  # noqa: PLC0415
 
-        file = BoxFile(path, anew, lambda: loop.status)
+        file, favourites = BoxFile(path, anew, lambda: loop.status), FavouritesApi(tracking.favourites, tracking.sky)
         site = build_site(config.station)
         place = (site.latitude_deg, site.longitude_deg) if site else None
-        passes = Passes(command(path) if path and site else None, time.monotonic, tracking.known_elements)
-        days = Passes(plan_command(path) if path and site else None, time.monotonic, tracking.known_elements)
+        passes, up, days = (
+            Passes(command(path) if path and site else None, time.monotonic, tracking.known_elements),
+            overhead(path if site else None, time.monotonic, tracking.known_elements),
+            Passes(plan_command(path) if path and site else None, time.monotonic, tracking.known_elements),
+        )
 
         def plan_again() -> None:
             passes.forget()
@@ -127,7 +131,6 @@ def build_page(
             tracking.read_again()
 
         plan = Plan(config.sky.follow, tracking.sky, tracking.priorities, passes, changed=plan_again, utc=time.time)
-        favourites = FavouritesApi(tracking.favourites, tracking.sky)
         uploads, fetches = Uploads(uploaded_folder(config)), fetches_file(config)
         elements = ElementFiles(tracking.sky, uploads, fetches, config.sky.fetch, changed=read_again, utc=time.time)
         folder = Path(config.state.path).parent
@@ -150,8 +153,8 @@ def build_page(
             utc=time.time,
             calibration=calibration,
             groups=(
-                lambda _entrance: (*plan.routes(), calendar_route(days), *favourites.routes()),
-                lambda _entrance: (*elements.routes(), *flown.routes()),
+                lambda _entrance: (*OverheadApi(up, mount).routes(), *plan.routes(), calendar_route(days)),
+                lambda _entrance: (*favourites.routes(), *elements.routes(), *flown.routes()),
                 lambda _entrance: (*SettingsApi(file).routes(), *SettingUpApi(file, calibration).routes()),
                 *help_groups(config, file, place, pairings=pairings, lines=lines, wires=wire_log),
             ),
@@ -160,7 +163,7 @@ def build_page(
                 Webhook(config.notify, lambda: news.step(loop.status, tracking.upcoming(), time.time())).run,
             ),
             language=config.page.language,
-            closes=(passes.close, days.close, elements.close),
+            closes=(passes.close, up.close, days.close, elements.close),
         )
 
     rivals = (counted("link", at) for at, each in enumerate(config.link) if each.tcp and address(each.tcp)[1] == port)

@@ -73,20 +73,25 @@ def command(path: Path) -> tuple[str, ...]:
 class Passes(Computed):
     """`words`: the command; None: the configuration has no place of the station. `clock` gives seconds.
 
-    `elements` gives the elements of the satellites: the same object until one changes.
+    `elements` gives the elements of the satellites: the same object until one changes. The rest as `Computed`.
     """
 
     def __init__(
-        self, words: Sequence[str] | None, clock: Callable[[], float], elements: Callable[[], object] = lambda: None
+        self,
+        words: Sequence[str] | None,
+        clock: Callable[[], float],
+        elements: Callable[[], object] = lambda: None,
+        *,
+        named: str = "the passes",
+        kept_s: float = KEPT_S,
+        shaped: Callable[[Any], dict[str, Any]] = lambda rows: {"passes": rows[:MOST]},
     ) -> None:
-        super().__init__(
-            words or (), clock, named="the passes", kept_s=KEPT_S, shaped=lambda rows: {"passes": rows[:MOST]}
-        )
+        super().__init__(words or (), clock, named=named, kept_s=kept_s, shaped=shaped)
         self._elements = elements
         self._computed_for = elements()
 
     def answer(self) -> dict[str, Any] | None:
-        """`passes`, or `error` with the reason. None: they are being computed; ask again."""
+        """The answer, or `error` with the reason. None: it is being computed; ask again."""
         if not self._words:
             return {"error": NO_PLACE}
         elements = self._elements()

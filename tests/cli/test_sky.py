@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from click.testing import CliRunner, Result
 
 from rotator.cli.main import cli
 from rotator.orbits.earth import Site
+from rotator.orbits.sight import Sight
 from tests.orbits import skyfield_oracle
 
 EVENING = "2025-03-01T00:00:00Z"
@@ -262,3 +264,37 @@ def test_a_name_is_printed_as_it_stands(tmp_path: Path, monkeypatch: pytest.Monk
         result = told(tmp_path, command, "--from", EVENING, elements=file, more=follows)
         assert result.exit_code == 0, said_by(result)
         assert name[:11] in result.stdout
+
+
+def test_what_is_up_with_its_pass_is_where_skyfield_sees_it(tmp_path: Path) -> None:
+    """At noon in Paris, and while the ISS, which it follows, is up."""
+    site, follow = Site(48.854167, 2.375), '[[sky.follow]]\nname = "ISS"\n'
+    rises_s = next(
+        at_s
+        for at_s in range(int(EVENING_S), int(EVENING_S) + 86_400, 60)
+        if skyfield_oracle.of_satellite("ISS", site, at_s).elevation_deg > 5
+    )
+    moment = datetime.fromtimestamp(rises_s, UTC).isoformat().replace("+00:00", "Z")
+    seen = read(told(tmp_path, "up", "--at", moment, "--json", more=follow))
+    iss = next(each for each in seen["up"] if each["name"] == "ISS")
+    assert seen["up"][0] is iss, "what is followed comes first"
+    assert (iss["rank"], iss["short"], seen["satellites"], seen["why_none"]) == ("followed", "ISS", 3, "")
+    assert iss["aos_s"] < rises_s < iss["los_s"]
+    for step, (azimuth_deg, elevation_deg) in enumerate(iss["points"]):
+        there = skyfield_oracle.of_satellite("ISS", site, iss["from_s"] + step * iss["step_s"])
+        off_deg = there.apart_deg(Sight(azimuth_deg, elevation_deg, 0.0))
+        assert off_deg < 0.03, step
+    noon = read(told(tmp_path, "up", "--at", "2025-03-01T12:00:00Z", "--json"))
+    sun = next(each for each in noon["up"] if each["name"] == "Sun")
+    top = skyfield_oracle.of_body("sun", site, sun["tca_s"])
+    assert sun["max_el_deg"] == pytest.approx(top.elevation_deg, abs=0.1)
+    assert "Sun" in told(tmp_path, "up", "--at", "2025-03-01T12:00:00Z").stdout
+
+
+def test_without_elements_the_sun_is_up_and_a_sentence_says_what_to_do(tmp_path: Path) -> None:
+    empty = tmp_path / "none.json"
+    empty.write_text("[]", encoding="utf-8")
+    noon = read(told(tmp_path, "up", "--at", "2025-03-01T12:00:00Z", "--json", elements=empty))
+    assert [each["name"] for each in noon["up"] if each["rank"] != "body"] == []
+    assert noon["satellites"] == 0
+    assert "No satellites are known" in noon["why_none"]

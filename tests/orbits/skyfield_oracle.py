@@ -12,6 +12,8 @@ from skyfield.api import EarthSatellite, Loader, wgs84
 from skyfield_data import get_skyfield_data_path
 
 from rotator.orbits.earth import Site
+from rotator.orbits.elements import Elements
+from rotator.orbits.omm import message
 from rotator.orbits.sight import Sight
 
 TLE = Path(__file__).parent / "elements-2025.tle"
@@ -43,6 +45,13 @@ def satellite(name: str) -> Any:
 
 def of_satellite(name: str, site: Site, utc_s: float) -> Sight:
     return _sight((satellite(name) - _place(site)).at(_time(utc_s)))
+
+
+def of_elements(elements: Elements, site: Site, utc_s: float) -> Sight:
+    """Of a satellite that is in no file, by the fields of an OMM."""
+    unused = {"CLASSIFICATION_TYPE": "U", "OBJECT_ID": "", "EPHEMERIS_TYPE": 0, "ELEMENT_SET_NO": 1, "REV_AT_EPOCH": 1}
+    made = EarthSatellite.from_omm(_timescale(), {**unused, **message(elements)})
+    return _sight((made - _place(site)).at(_time(utc_s)))
 
 
 def of_body(name: str, site: Site, utc_s: float) -> Sight:

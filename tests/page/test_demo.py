@@ -45,6 +45,6 @@ def test_from_a_new_box_to_the_picture_of_a_flown_pass_is_one_press(
     rows = figures.value.path().read_text(encoding="utf-8").splitlines()
     assert rows[0].startswith("utc,t,target_az,")
     assert len(rows) > 60
-    page.get_by_role("link", name="Sky").click()
+    page.get_by_role("link", name="Plan").click()
     page.locator(".flown .week", has_text="passes: 1").wait_for()
     assert violations(page) == []

@@ -252,7 +252,7 @@ def sets_limits_place_and_program(finger: Finger) -> None:
 
 
 def tracks_a_pass_to_its_end(finger: Finger) -> None:
-    finger.view("Sky")
+    finger.view("Plan")
     now_s = time.time()
     made = as_json([satellite("FIRST", 90_001, now_s, SITE, sets_in(now_s, PASS_S))]).encode()
     send = finger.page.get_by_label("Send a file")

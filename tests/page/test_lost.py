@@ -240,7 +240,7 @@ def test_passes_that_are_still_computed_are_asked_for_again(start: Start, visit:
             route.fulfill(json={"passes": [{**made, "tca": made["aos"], "aos_az_deg": 10, "los_az_deg": 200}]})
 
     page.route("**/api/passes", answer)
-    page.get_by_role("link", name="Sky").click()
+    page.get_by_role("link", name="Plan").click()
     page.get_by_text("The box computes passes and plan").wait_for()
     page.get_by_role("cell", name="AO-91").wait_for()
     assert len(asked) == 2

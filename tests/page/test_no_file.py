@@ -107,7 +107,7 @@ def test_from_a_box_without_a_file_to_the_iss(bare: Station, visit: Visit) -> No
         if page.get_by_role("button", name="The time of the box is right").count():
             finger.press("The time of the box is right")
             finger.press("It is right")
-        finger.view("Sky")
+        finger.view("Plan")
         finger.press("Track ISS (ZARYA)")
         page.get_by_text("Tracks ISS (ZARYA)").wait_for(timeout=COMPUTED_MS)
     assert refused == [], "nothing was pressed that had to fail"

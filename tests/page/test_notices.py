@@ -23,7 +23,7 @@ def test_a_stop_and_a_fault_are_told_on_every_view_once_it_is_switched_on(
     station = start()
     page = visit(station, permissions=["notifications"])
     pair(page)
-    page.get_by_role("link", name="Sky", exact=True).click()
+    page.get_by_role("link", name="Plan", exact=True).click()
     switch = page.get_by_role("switch", name="Notices in this browser")
     assert switch.get_attribute("aria-checked") == "false"
     station.tell("stop")

@@ -86,10 +86,10 @@ def test_nothing_is_wider_than_the_screen_and_stop_is_on_it(start: Start, visit:
         assert stop["y"] + stop["height"] == height
 
 
-# By the letters of the view's link. Of the Sky the table of passes is waited for, of Setup every step is opened.
+# By the letters of the view's link. Of the Plan the table of passes is waited for, of Setup every step is opened.
 VIEWS = {
     "Antenna": ".board",
-    "Sky": ".passes td",
+    "Plan": ".passes td",
     "Setup": ".step",
     "Help": ".doctor li",
     "Log": ".log td",

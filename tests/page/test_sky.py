@@ -1,4 +1,4 @@
-"""The Sky view in Chromium: a pass is tracked and its picture kept, elements sent, good and bad."""
+"""The Plan view in Chromium: a pass is tracked and its picture kept, elements sent, good and bad."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_a_press_tracks_a_satellite_and_its_pass_leaves_a_picture(start: Start, 
     pair(page)
     page.locator(".headline", has_text="next COMING").wait_for(timeout=COMPUTED_MS)
     page.locator(".key.next", has_text="COMING").wait_for()
-    page.get_by_role("link", name="Sky").click()
+    page.get_by_role("link", name="Plan").click()
     page.get_by_label("Passes that reach, in degrees").fill("0")
     page.get_by_role("button", name="Track GOING").first.click(timeout=COMPUTED_MS)
     page.get_by_text("Tracks GOING").wait_for()
@@ -73,7 +73,7 @@ def test_a_table_of_directions_is_sent_and_tracked_and_a_mistake_in_it_is_told(
     bad.write_text("t,az,el\n60,20,5\n50,50,25\n", encoding="utf-8")
     page = visit(start())
     pair(page)
-    page.get_by_role("link", name="Sky").click()
+    page.get_by_role("link", name="Plan").click()
     page.get_by_label("Track a table of directions").set_input_files(bad)
     page.get_by_text("bad.csv:3: t must rise from row to row: 50 comes after 60").wait_for()
     page.get_by_label("Track a table of directions").set_input_files(good)
@@ -84,7 +84,7 @@ def test_a_table_of_directions_is_sent_and_tracked_and_a_mistake_in_it_is_told(
 def test_elements_are_sent_whole_or_not_at_all(start: Start, visit: Visit, tmp_path: Path) -> None:
     page = visit(start(f'[station]\nlocator = "{LOCATOR}"\n'))
     pair(page)
-    page.get_by_role("link", name="Sky").click()
+    page.get_by_role("link", name="Plan").click()
     page.get_by_text("No satellite is known yet.").wait_for()
     now_s = time.time()
     good = as_json([satellite("MINE", 90_004, now_s, SITE, rises_in(now_s, 1800.0))])

@@ -25,7 +25,18 @@ NO_TOKEN, MAY_READ, TOKEN = 0, 3, 2
 """By the number of ways to show who asks."""
 FOR_ALL = {"get me", "get openapi.json", "post pair/begin", "post pair", "post stop"}
 FOR_READERS = {
-    *("get status", "get box", "get past", "get path", "get live", "get passes", "get next", "get followed"),
+    *(
+        "get status",
+        "get box",
+        "get past",
+        "get path",
+        "get live",
+        "get passes",
+        "get next",
+        "get followed",
+        "get sky",
+        "get unreached",
+    ),
     *("get elements", "get flown", "get flown/picture", "get flown/table", "get doctor", "post demo"),
     "get passes.ics",
 }

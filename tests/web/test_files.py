@@ -38,7 +38,7 @@ def test_what_a_file_names_is_there(path: str) -> None:
 
 def test_each_library_has_its_licence() -> None:
     folder = assets.FOLDER / "vendor"
-    for library, file in {"preact": "preact.mjs", "htm": "htm.mjs", "uplot": "uplot.js"}.items():
+    for library, file in {"preact": "preact.mjs", "htm": "htm.mjs"}.items():
         assert (folder / file).is_file()
         assert (folder / f"LICENSE-{library}").is_file()
 

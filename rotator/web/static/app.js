@@ -9,6 +9,7 @@ import { Favourites } from "/favourites.js";
 import { Help, helps } from "/help.js";
 import { Notices } from "/notices.js";
 import { hindrance, Orders } from "/orders.js";
+import { Chosen, Flying, isOne, touched, UpNow, useOverhead } from "/overhead.js";
 import { Pair, Paired } from "/pairing.js";
 import { PassMode } from "/pass.js";
 import { Passes } from "/passes.js";
@@ -47,35 +48,50 @@ function useNext(name) {
 }
 
 function Antenna({ station, now, hello, fresh, say }) {
-  const [draft, setDraft] = useState(null);
-  const [past, path] = usePast(now.path), next = useNext(now.path);
-  const paired = hello.paired;
-  const { azimuth, elevation } = now.status;
+  const [draft, setDraft] = useState(null), [chosen, choose] = useState(null);
+  const [past, path] = usePast(now.path), next = useNext(now.path), dome = station.elevation.fitted;
+  const { sky, fault } = useOverhead(dome && station.where !== null);
+  const { paired } = hello, { azimuth, elevation } = now.status, one = sky?.up.find((each) => isOne(each, chosen));
+  // A finger means what is up there, or else the direction.
+  const pick = (way, at, px) => {
+    const met = at && touched(sky, at, px);
+    choose(met);
+    setDraft(met ? null : way);
+  };
+  const flying = (px) => html`<${Flying} sky=${sky} px=${px} chosen=${chosen} tracked=${now.status.tracks?.name} />`;
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
-    <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /><${Demo} now=${now} say=${say} /></div>
-    <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${setDraft} />
-      ${paired && html`<${Orders} now=${now} hello=${hello} quiet><${ThereFromSky} station=${station} draft=${draft} say=${say} /><//><${Favourites} now=${now} hello=${hello} station=${station} say=${say} />`}</div>
-    <div class="panel timeline-panel"><${Timeline} now=${now} station=${station} hello=${hello} say=${say} /></div>
-    <section class="panel hand" aria-label="By hand">
-      <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
-      <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />
-      ${paired ? html`<${Orders} now=${now} hello=${hello} jog><${JogPad} station=${station} live=${live} say=${say} /><//>
-        <${Orders} now=${now} hello=${hello} quiet=${hindrance(now, hello, true)}>
-        <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
-        <${Track} now=${now} known=${station.where} say=${say} />
-        <${Asks} label="To the park position" question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Turn it there?`}
-          yes="Turn it there" onYes=${() => act(post("park"), say)} /><//>
-        <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
-    </section>
-    <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}
-      ${station.elevation.fitted && html`<${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} />`}</div>
-    <div class="panel front-panel"><${Front} now=${now} /><${Notes} now=${now} /></div>
-    <div class="panel links-panel"><${Links} now=${now} /></div>
-    <div class="panel chart-panel"><${Chart} past=${past} axes=${fitted(station)} /></div>
+    <div class="stage">
+      <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /></div>
+      <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${pick} flying=${flying} /></div>
+      <div class="pick">${one && html`<div class="panel"><${Chosen} one=${one} now=${now} hello=${hello} say=${say} onClose=${() => choose(null)} /></div>`}
+        ${paired && directionOf(draft) && html`<div class="panel"><${Orders} now=${now} hello=${hello} quiet><${ThereFromSky} station=${station} draft=${draft} say=${say} /><//></div>`}
+        ${dome && html`<div class="panel"><${UpNow} sky=${sky} fault=${fault} known=${station.where} chosen=${chosen} choose=${choose} /></div>`}</div>
+      ${paired && html`<div class="panel favourites-panel"><${Favourites} now=${now} hello=${hello} station=${station} say=${say} /></div>`}
+      <div class="panel timeline-panel"><${Timeline} now=${now} station=${station} hello=${hello} say=${say} /></div>
+      <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}
+        ${station.elevation.fitted && html`<${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} />`}</div>
+      <div class="panel front-panel"><${Front} now=${now} /><${Notes} now=${now} /></div>
+      <div class="panel links-panel"><${Links} now=${now} /></div>
+      <div class="panel chart-panel"><${Chart} past=${past} axes=${fitted(station)} /></div>
+    </div>
+    <div class="aside">
+      <section class="panel hand" aria-label="By hand">
+        ${paired ? html`<${Orders} now=${now} hello=${hello} jog><${JogPad} station=${station} live=${live} say=${say} /><//>
+          <${Orders} now=${now} hello=${hello} quiet=${hindrance(now, hello, true)}>
+          <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
+          <${Track} now=${now} known=${station.where} say=${say} />
+          <${Asks} label="To the park position" question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Turn it there?`}
+            yes="Turn it there" onYes=${() => act(post("park"), say)} /><//>
+          <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
+        <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
+        <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />
+      </section>
+      <div class="demo-panel"><${Demo} now=${now} say=${say} /></div>
+    </div>
   </main>`;
 }
 
-const VIEWS = [["", "Antenna"], ["sky", "Sky"], ["pass", "Pass"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
+const VIEWS = [["", "Antenna"], ["sky", "Plan"], ["pass", "Pass"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
 
 /** The view that the address names; of one that is not known the first. */
 function shownView() {

@@ -81,7 +81,7 @@ export function ThereFromSky({ station, draft, say }) {
 }
 
 /** What became of the latest request, where the status does not show it; empty: nothing to say. */
-function trackingSaid(tracking) {
+export function trackingSaid(tracking) {
   if (tracking === "planning") return "The next pass is planned …";
   if (tracking.startsWith("refused: ")) return `Not tracked: ${tracking.slice(9)}`;
   if (tracking.startsWith("rests: ")) return `${tracking[7].toUpperCase()}${tracking.slice(8)}.`;

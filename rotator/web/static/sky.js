@@ -1,18 +1,22 @@
 // The sky over the station: north up, the zenith in the middle. Draws the antenna with its beam, where it shall point,
-// where it has been, the pass, and all that is in the way. A press tells a direction.
-import { degrees, html, useMemo } from "/ui.js";
+// where it has been, and all that is in the way. What flies there is drawn by overhead.js. A press tells a direction.
+import { read } from "/box.js";
+import { Rose } from "/rose.js";
+import { degrees, html, useEffect, useMemo, useRef, useState } from "/ui.js";
 
-const RADIUS = 100, TRAIL_STEP_DEG = 0.7;
-const rad = (deg) => (deg * Math.PI) / 180, deg = (angle) => (angle * 180) / Math.PI;
+const RADIUS = 100, HALF = 112, TRAIL_STEP_DEG = 0.7;
+export const rad = (deg) => (deg * Math.PI) / 180, deg = (angle) => (angle * 180) / Math.PI;
 
 /** Where an antenna at these axis angles points: on another turn, or over the top. */
 export const direction = (az, el) => (el > 90 ? [(((az + 180) % 360) + 360) % 360, 180 - el] : [((az % 360) + 360) % 360, el]);
 
-const place = ([az, el]) => {
+/** Where a direction is in the picture, and the way back. */
+export const place = ([az, el]) => {
   const out = (RADIUS * (90 - Math.max(el, 0))) / 90;
   return [out * Math.sin(rad(az)), -out * Math.cos(rad(az))];
 };
-const clock = (text) => new Date(text).toLocaleTimeString(undefined, { hour: "2-digit", minute: "2-digit" });
+export const wayAt = ([x, y]) => [(deg(Math.atan2(x, -y)) + 360) % 360, Math.max(0, 90 - (Math.hypot(x, y) * 90) / RADIUS)];
+export const clock = (text) => new Date(text).toLocaleTimeString(undefined, { hour: "2-digit", minute: "2-digit" });
 const point = (way) => place(way).map((value) => value.toFixed(2)).join(",");
 const line = (ways) => ways.map(point).join(" ");
 
@@ -55,22 +59,40 @@ function horizon(points) {
   return `M${line(inner)}Z M-100,0 A100,100 0 1 1 100,0 A100,100 0 1 1 -100,0Z`;
 }
 
-function Backdrop({ station }) {
-  const { azimuth, elevation } = station, short = azimuth.max_deg - azimuth.min_deg < 360;
+/** A part of the sky between two azimuths and two elevations. */
+function area([west, east, low, high]) {
+  const ways = [], steps = Math.max(1, Math.ceil((east - west) / 4));
+  for (let step = 0; step <= steps; step++) ways.push([west + ((east - west) * step) / steps, low]);
+  for (let step = steps; step >= 0; step--) ways.push([west + ((east - west) * step) / steps, high]);
+  return `M${ways.map(point).join("L")}Z`;
+}
+
+/** Where the antenna cannot point, as the box's mount decides. */
+function useUnreached(station) {
+  const [areas, setAreas] = useState([]);
+  useEffect(() => {
+    read("unreached").then((told) => setAreas(told.areas), () => {});
+  }, [station]);
+  return areas;
+}
+
+function Backdrop({ station, unreached }) {
   return html`<g>
+    <defs>
+      <radialGradient id="air" cx="0" cy="0" r="100" gradientUnits="userSpaceOnUse"><stop class="zenith" /><stop class="high" offset=".62" /><stop class="level" offset="1" /></radialGradient>
+      <pattern id="hatch" width="3" height="3" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><line y2="3" class="hatch" /></pattern>
+    </defs>
     <circle r="100" class="sky" />
+    ${unreached.length > 0 && html`<path class="unreached" d=${unreached.map(area).join("")}><title>out of the antenna's reach</title></path>`}
     ${[30, 60].map((el) => html`<circle r=${(RADIUS * (90 - el)) / 90} class="ring" />`)}
-    ${[...Array(12).keys()].map((at) => html`<line class="spoke" x1=${8 * Math.sin(rad(30 * at))} y1=${-8 * Math.cos(rad(30 * at))}
+    ${[...Array(12).keys()].map((at) => html`<line class="spoke" x1=${(at % 3 ? 33.3 : 0) * Math.sin(rad(30 * at))} y1=${-(at % 3 ? 33.3 : 0) * Math.cos(rad(30 * at))}
       x2=${100 * Math.sin(rad(30 * at))} y2=${-100 * Math.cos(rad(30 * at))} />`)}
     <path class="horizon" d=${horizon(station.horizon)} fill-rule="evenodd" />
-    ${elevation.max_deg < 90 && html`<circle class="limit" r=${(RADIUS * (90 - elevation.max_deg)) / 90} />`}
-    ${elevation.min_deg > 0 && html`<circle class="limit" r=${(RADIUS * (90 - elevation.min_deg)) / 90} />`}
-    ${short && [azimuth.min_deg, azimuth.max_deg].map((az) => html`<polyline class="limit" points=${line([[az, 0], [az, 90]])} />`)}
     ${station.sectors.map((sector) => html`<polygon class="sector" points=${box(sector)}><title>${sector.name}</title></polygon>`)}
-    ${[["N", 0], ["E", 90], ["S", 180], ["W", 270]].map(([name, az]) => html`<text class="compass" x=${109 * Math.sin(rad(az))}
-      y=${-109 * Math.cos(rad(az)) + 4}>${name}</text>`)}
-    ${[30, 60].map((el) => html`<text class="height" x="2" y=${-(RADIUS * (90 - el)) / 90 - 1.5}>${el}°</text>`)}
-    <g transform=${`translate(${point(parked(station.park))})`} class="park"><title>park position</title><circle r="5" /><path d="M-1.4,3 V-3 H0.6 A1.8,1.8 0 0 1 .6,.7 H-1.4" /></g>
+    <circle r="100" class="edge" />
+    ${[...Array(36).keys()].map((at) => html`<line class="tick" transform=${`rotate(${at * 10})`} y1="-100" y2=${at % 3 ? -101.3 : -102.2} />`)}
+    ${[...Array(12).keys()].map((at) => html`<text class=${at % 3 ? "bearing" : "compass"} x=${107 * Math.sin(rad(30 * at))} y=${-107 * Math.cos(rad(30 * at))}>${at % 3 ? at * 30 : "NESW"[at / 3]}</text>`)}
+    ${[30, 60].map((el) => html`<text class="height" x="1.2" y=${-(RADIUS * (90 - el)) / 90 - 1.2}>${el}°</text>`)}
   </g>`;
 }
 
@@ -84,64 +106,63 @@ function trail(past) {
   return line(ways);
 }
 
-/** In place of the sky, for an antenna that turns in azimuth alone: north up. A press tells a bearing. */
-function Rose({ station, now, path, draft, onPick }) {
-  const { antenna, target } = now, half = station.beam_deg / 2, { min_deg: low, max_deg: high } = station.azimuth;
-  const at = (az, radius) => [radius * Math.sin(rad(az)), -radius * Math.cos(rad(az))].map((value) => value.toFixed(2));
-  const ray = (az, name, from = 0) => html`<line class=${name} x1=${at(az, from)[0]} y1=${at(az, from)[1]} x2=${at(az, 100)[0]} y2=${at(az, 100)[1]} />`;
-  const pick = (event) => {
-    const to = new DOMPoint(event.clientX, event.clientY).matrixTransform(event.currentTarget.getScreenCTM().inverse());
-    if (Math.hypot(to.x, to.y) < 116) onPick([Math.round((deg(Math.atan2(to.x, -to.y)) + 360) % 360), 0]);
-  };
-  const told = `Compass. Antenna ${antenna ? `at ${degrees(antenna[0])}` : "not known"}${target ? `; target at ${degrees(target[0])}` : "; no target"}`;
-  return html`<figure class="skyview">
-    <svg viewBox="-122 -120 244 240" role="img" aria-label=${told} onClick=${pick}>
-      <circle r="100" class="sky" />
-      ${station.sectors.map((sector) => html`<path class="sector" d=${`M0,0 L${at(sector.azimuth[0], 100)} A100,100 0 ${sector.azimuth[1] - sector.azimuth[0] > 180 ? 1 : 0} 1 ${at(sector.azimuth[1], 100)}Z`}><title>${sector.name}</title></path>`)}
-      ${[...Array(36).keys()].map((step) => ray(step * 10, "spoke", step % 3 ? 95 : 90))}
-      ${[...Array(12).keys()].map((step) => html`<text class=${step % 3 ? "height" : "compass"} text-anchor="middle" x=${at(step * 30, 109)[0]} y=${+at(step * 30, 109)[1] + 4}>${step % 3 ? step * 30 : "NESW"[step / 3]}</text>`)}
-      ${high - low < 360 && [low, high].map((az) => ray(az, "limit"))}
-      ${path && html`<polyline class="pass" points=${path.points.map(([az]) => at(az, 92)).join(" ")} />`}
-      ${antenna && html`<path class="beam" d=${`M0,0 L${at(antenna[0] - half, 100)} A100,100 0 ${half > 90 ? 1 : 0} 1 ${at(antenna[0] + half, 100)}Z`} />`}
-      ${draft && ray(draft[0], "gap")}
-      ${target && html`${ray(target[0], "gap")}<g transform=${`translate(${at(target[0], 84)})`}><path class="target" d="M0,-6 6,0 0,6 -6,0Z" /></g>`}
-      ${antenna && html`${ray(antenna[0], "trail")}<g transform=${`translate(${at(antenna[0], 84)})`}><circle class="antenna" r="4" /></g>`}
-    </svg>
-    <figcaption><span class="key antenna">antenna, its beam ${station.beam_deg}°</span><span class="key target">target</span>
-      ${path && html`<span class="key pass">${path.name}</span>`}</figcaption>
-  </figure>`;
-}
-
 export function Sky(parts) {
   return parts.station.elevation.fitted ? html`<${Dome} ...${parts} />` : html`<${Rose} ...${parts} />`;
 }
 
-function Dome({ station, now, past, path, next, draft, onPick }) {
-  const backdrop = useMemo(() => html`<${Backdrop} station=${station} />`, [station]);
+/** Units of the picture in a pixel of the screen: letters and dots keep their size in a small picture and in a large one. */
+function useScale(picture) {
+  const [px, setPx] = useState(0.5);
+  useEffect(() => {
+    const watch = new ResizeObserver(() => {
+      if (!picture.current) return;
+      const { width, height } = picture.current.getBoundingClientRect(), least = Math.min(width, height);
+      if (least > 0) setPx((2 * HALF) / least);
+    });
+    watch.observe(picture.current);
+    return () => watch.disconnect();
+  }, []);
+  return px;
+}
+
+/** A sign in the sky, in pixels of the screen. */
+const Sign = ({ at, px, children }) => html`<g transform=${`translate(${point(at)}) scale(${px.toFixed(4)})`}>${children}</g>`;
+const AntennaMark = ({ antenna, beamDeg, px }) => html`<g><polygon class="beam" points=${beam(antenna, beamDeg / 2)} />
+  <${Sign} at=${antenna} px=${px}><path class="cross" d="M-13,0H13M0,-13V13" /><circle class="antenna" r="7" /></${Sign}></g>`;
+const TargetMark = ({ target, px }) => html`<${Sign} at=${target} px=${px}><path class="target" d="M0,-13 13,0 0,13 -13,0Z" /></${Sign}>`;
+const DraftMark = ({ draft, px }) => html`<${Sign} at=${draft} px=${px}><path class="draft" d="M-16,0H-5M5,0H16M0,-16V-5M0,5V16" /></${Sign}>`;
+const ParkMark = ({ park, px }) => html`<${Sign} at=${parked(park)} px=${px}><g class="park"><circle r="9" /><path d="M-2.5,5.5 V-5.5 H1.3 A3.2,3.2 0 0 1 1.3,1.2 H-2.5" /><title>park position</title></g></${Sign}>`;
+
+/** `flying`: draws what is up there, with the scale. `onPick`: a direction in whole degrees, where in the picture, and units in a pixel. */
+function Dome({ station, now, past, path, next, draft, onPick, flying }) {
+  const picture = useRef(null), px = useScale(picture), unreached = useUnreached(station);
+  const backdrop = useMemo(() => html`<${Backdrop} station=${station} unreached=${unreached} />`, [station, unreached]);
   const behind = useMemo(() => html`<polyline class="trail" points=${trail(past)} />`, [past]);
   const { antenna, target } = now, follows = next && next.name !== path?.name ? next : null;
   const pick = (event) => {
-    const svg = event.currentTarget, to = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-    const out = Math.hypot(to.x, to.y);
-    if (out > 104) return;
-    onPick([Math.round((deg(Math.atan2(to.x, -to.y)) + 360) % 360), Math.max(0, Math.round(90 - (out * 90) / RADIUS))]);
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.current.getScreenCTM().inverse());
+    if (Math.hypot(x, y) < 104) onPick(wayAt([x, y]).map(Math.round).map((value, axis) => (axis ? value : value % 360)), [x, y], px);
   };
   const told = `The sky. Antenna ${antenna ? `at azimuth ${degrees(antenna[0])}, elevation ${degrees(antenna[1])}` : "not known"}` +
     (target ? `; target at azimuth ${degrees(target[0])}, elevation ${degrees(target[1])}` : "; no target");
   return html`<figure class="skyview">
-    <svg viewBox="-122 -120 244 240" role="img" aria-label=${told} onClick=${pick}>
+    <svg viewBox=${`${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`} role="img" aria-label=${told} onClick=${pick} ref=${picture} style=${{ "--px": px }}>
       ${backdrop}${behind}
-      ${follows?.points.length > 0 && html`<g class="next"><polyline points=${line(follows.points)} /><circle cx=${place(follows.points[0])[0]} cy=${place(follows.points[0])[1]} r="2.4" /></g>`}
+      ${follows?.points.length > 0 && html`<g class="next"><polyline points=${line(follows.points)} /><circle cx=${place(follows.points[0])[0]} cy=${place(follows.points[0])[1]} r="1.6" /></g>`}
       ${path && html`<polyline class="pass" points=${line(path.points)} />`}
-      ${antenna && html`<polygon class="beam" points=${beam(antenna, station.beam_deg / 2)} />`}
       ${antenna && target && html`<line class="gap" x1=${place(antenna)[0]} y1=${place(antenna)[1]} x2=${place(target)[0]} y2=${place(target)[1]} />`}
-      ${draft && html`<g transform=${`translate(${point(draft)})`}><path class="draft" d="M-8,0H-3M3,0H8M0,-8V-3M0,3V8" /></g>`}
-      ${target && html`<g transform=${`translate(${point(target)})`}><path class="target" d="M0,-6 6,0 0,6 -6,0Z" /></g>`}
-      ${antenna && html`<g transform=${`translate(${point(antenna)})`}><circle class="antenna" r="4" /></g>`}
+      <${ParkMark} park=${station.park} px=${px} />
+      ${antenna && html`<${AntennaMark} antenna=${antenna} beamDeg=${station.beam_deg} px=${px} />`}
+      ${flying(px)}
+      ${draft && html`<${DraftMark} draft=${draft} px=${px} />`}
+      ${target && html`<${TargetMark} target=${target} px=${px} />`}
     </svg>
-    <figcaption><span class="key antenna">antenna, its beam ${station.beam_deg}°</span><span class="key target">target</span>
+    <figcaption>${station.sectors.length > 0 && html`<span class="key sector">forbidden</span>`}
+      ${unreached.length > 0 && html`<span class="key unreached">out of reach</span>`}
+      ${target && html`<span class="key target">target</span>`}
+      <span class="key antenna">antenna, its beam ${station.beam_deg}°</span>
       ${path && html`<span class="key pass">${path.name}</span>`}
       ${follows && html`<span class="key next">next: ${follows.name}, ${clock(follows.aos)}</span>`}
-      ${station.sectors.length > 0 && html`<span class="key sector">forbidden</span>`}<span class="key park">park position</span></figcaption>
+      <span class="key park">park position</span></figcaption>
   </figure>`;
 }

@@ -126,7 +126,7 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
       ${rows.length > 0 && html`<p class="legend">${followed.length > 0 && html`<span class="flown">planned</span><span class="out">left out</span>`}${rows.some((row) => !row.one) && html`<span>not in the plan</span>`}</p>`}
       ${undo && html`<button type="button" onClick=${takeBack}>Undo: ${undo.says}</button>`}
       ${paired && other && !undo && html`<button type="button" onClick=${asWritten}>The file's order again</button>`}</div>
-    ${rows.length > 0 && html`<div class=${`scroller ${waits ? "old" : ""}`}><div class="day">
+    ${rows.length > 0 && html`<div tabindex="0" class=${`scroller ${waits ? "old" : ""}`}><div class="day">
       <div class="ruler" aria-hidden="true">${[...Array(HOURS).keys()].map((hour) => html`<span key=${hour}>${new Date(begin + hour * HOUR_MS).toLocaleTimeString(undefined, { hour: "numeric" })}</span>`)}</div>
       <div class="behind" aria-hidden="true">${dark.map(([from, until]) => html`<i class="night" style=${{ left: share(from), width: `${((until - from) / (HOURS * HOUR_MS)) * 100}%` }}></i>`)}</div>
       <ol ref=${list}>${rows.map((row, index) => html`<li key=${row.name} class=${dragged && dragged === row.one ? "dragged" : ""}>
