@@ -142,6 +142,6 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
       onFly=${(name) => (pass.plan.flown ? prefer(name, pass.name) : prefer(pass.name, name))} />`
     : rows.length > 0 && html`<p class="about">Press a bar to see more of a pass.${paired && followed.length > 1 ? " Drag the satellite that counts more to the top: where two are up at once, a minute of the first is worth more." : ""}</p>`}
     ${!followed.length && station.where && html`<p class="about">The box flies passes by itself once it follows satellites: <a href="#setup/8">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
-    <p class="about" role="status">${!station.where ? html`The box does not know where it stands: <a href="#setup">tell it</a>.` : fault || (waits ? "The box computes passes and plan …" : passes && !rows.length ? "No pass is high enough." : "")}</p>
+    <p class="about" role="status">${waits ? "The box computes passes and plan …" : !station.where ? html`The box does not know where it stands: <a href="#setup">tell it</a>.` : fault || (passes && !rows.length ? "No pass is high enough." : "")}</p>
     <p class="only-read" role="status">${told}</p></section>`;
 }
