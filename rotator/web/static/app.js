@@ -19,7 +19,7 @@ import { Sky } from "/sky.js";
 import { Timeline } from "/timeline.js";
 import { act, fitted, html, render, useEffect, useEvery, useState } from "/ui.js";
 
-const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000;
+const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000, KEPT_MS = 60_000;
 let tell = () => {}, version;
 const live = new Live((seen) => tell(seen));
 
@@ -52,13 +52,15 @@ function Antenna({ station, now, hello, fresh, say }) {
   const [past, path] = usePast(now.path), next = useNext(now.path), dome = station.elevation.fitted;
   const { sky, fault } = useOverhead(dome && station.where !== null);
   const { paired } = hello, { azimuth, elevation } = now.status, one = sky?.up.find((each) => isOne(each, chosen));
+  const [kept, setKept] = useState([]);
+  useEvery(KEPT_MS, async () => paired && setKept((await read("favourites")).favourites.map(({ target }) => target.toLowerCase())), [paired]);
   // A finger means what is up there, or else the direction.
   const pick = (way, at, px) => {
     const met = at && touched(sky, at, px);
     choose(met);
     setDraft(met ? null : way);
   };
-  const flying = (px) => html`<${Flying} sky=${sky} px=${px} chosen=${chosen} tracked=${now.status.tracks?.name} />`;
+  const flying = (px) => html`<${Flying} sky=${sky} px=${px} chosen=${chosen} tracked=${now.status.tracks?.name} favourites=${kept} />`;
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
     <div class="stage">
       <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /></div>

@@ -109,7 +109,7 @@ function Arc({ one, at, px }) {
     ${marks(one, at, px).map(({ x, y, textX, textY, text }) => html`<g><circle cx=${x} cy=${y} r=${3 * px} /><text class="when" x=${textX} y=${textY}>${text}</text></g>`)}</g>`;
 }
 
-/** All that is up, drawn for the scale of the picture. `chosen` and `tracked`: keys; `favourites`: names. */
+/** All that is up, drawn for the scale of the picture. `chosen` and `tracked`: keys; `favourites`: what they track. */
 export function Flying({ sky, px, chosen, tracked, favourites = [] }) {
   const kept = useRef(new Map()), tick = Math.floor(boxTime() / MOVES_MS);
   return useMemo(() => {
@@ -117,9 +117,10 @@ export function Flying({ sky, px, chosen, tracked, favourites = [] }) {
     const at = seconds(), shown = [];
     for (const one of sky.up) {
       const way = where(one, at), mine = key(one) === chosen, flown = one.name === tracked;
-      if (way) shown.push({ one, x: way[0], y: way[1], mine, flown, counts: mine || flown || one.rank !== "" || favourites.includes(one.name) });
+      if (way) shown.push({ one, x: way[0], y: way[1], mine, flown, kept: [one.name, one.short, `${one.number}`].some((each) => favourites.includes(each.toLowerCase())) });
     }
-    shown.sort((a, b) => b.mine - a.mine || b.flown - a.flown || b.counts - a.counts);
+    shown.forEach((each) => (each.counts = each.mine || each.flown || each.kept || each.one.rank !== ""));
+    shown.sort((a, b) => b.mine - a.mine || b.flown - a.flown || b.kept - a.kept || b.counts - a.counts);
     const choice = sky.up.find((one) => key(one) === chosen);
     return html`<g class="flying">
       ${choice && html`<${Arc} one=${choice} at=${at} px=${px} />`}
@@ -129,7 +130,7 @@ export function Flying({ sky, px, chosen, tracked, favourites = [] }) {
           <circle cx=${x.toFixed(2)} cy=${y.toFixed(2)} r=${(counts ? 4.2 : 2.4) * px} />`}<title>${one.name}</title></g>`)}
       ${labels(shown, px, kept.current, [...HEIGHTS, ...(choice ? marks(choice, at, px) : [])]).map(([one, anchor, x, y]) => html`<text key=${`name ${key(one)}`} class=${`name ${one.rank || "other"} ${key(one) === chosen ? "mine" : ""}`} text-anchor=${anchor} x=${x.toFixed(2)} y=${y.toFixed(2)}>${one.short}</text>`)}
     </g>`;
-  }, [tick, sky, px, chosen, tracked]);
+  }, [tick, sky, px, chosen, tracked, favourites]);
 }
 
 /** The key of the one that a finger means: the nearest within its reach, rather one that counts. Null: a direction is meant. */
