@@ -157,12 +157,11 @@ function Dome({ station, now, past, path, next, draft, onPick, flying }) {
       ${draft && html`<${DraftMark} draft=${draft} px=${px} />`}
       ${target && html`<${TargetMark} target=${target} px=${px} />`}
     </svg>
-    <figcaption>${station.sectors.length > 0 && html`<span class="key sector">forbidden</span>`}
+    <figcaption><span class="key park">park position</span>${station.sectors.length > 0 && html`<span class="key sector">forbidden</span>`}
       ${unreached.length > 0 && html`<span class="key unreached">out of reach</span>`}
       ${target && html`<span class="key target">target</span>`}
       <span class="key antenna">antenna, its beam ${station.beam_deg}°</span>
       ${path && html`<span class="key pass">${path.name}</span>`}
-      ${follows && html`<span class="key next">next: ${follows.name}, ${clock(follows.aos)}</span>`}
-      <span class="key park">park position</span></figcaption>
+      ${follows && html`<span class="key next">next: ${follows.name}, ${clock(follows.aos)}</span>`}</figcaption>
   </figure>`;
 }
