@@ -39,6 +39,11 @@ class Announced(NamedTuple):
     """Its configuration file; None: the simulated rotor."""
 
     @property
+    def fields(self) -> dict[str, str | None]:
+        """How a script finds it."""
+        return {"folder": str(self.folder), "config": str(self.config) if self.config else None}
+
+    @property
     def named(self) -> str:
         """How a person finds it."""
         return f"the box in {self.folder}" + (f" (--config {self.config})" if self.config else "")

@@ -20,7 +20,8 @@ WHERE = command(
     Option(["--json", "as_json"], is_flag=True, help="One object; its fields: rotator help commands."),
     says="""Show where the antenna is, who moves it, and what is wrong.
 
-    The exit code is 3 where an axis has a fault.
+    The exit code is 3 where an axis has a fault. With --json, `box` names a box of another folder; and where none
+    answers, or more than one, the object is `error` and the `boxes` that run.
     """,
     examples=["rotator where", "rotator where --json", "rotator where && echo healthy"],
 )
@@ -96,8 +97,13 @@ RESUME = command(
     "resume",
     "console:resume",
     CONFIG,
-    says="Let the antenna move again after a stop. Acknowledges faults.",
-    examples=["rotator resume"],
+    Option(["--go-on"], is_flag=True, help="Also track again what the stop, the fault or a jog has ended."),
+    says="""Let the antenna move again after a stop. Acknowledges faults.
+
+    Nothing moves before the next order, unless --go-on asks for it. The exit code is 3 while the cause of a fault is
+    still there.
+    """,
+    examples=["rotator resume", "rotator resume --go-on"],
 )
 HOME = command(
     "home",

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import click
 
+from rotator.cli.announced import boxes
 from rotator.cli.box import OK, BoxStatus, Refused, RunningBox, faults, stands, typed
-from rotator.cli.failed import FAULTY, CommandFailed
+from rotator.cli.failed import FAULTY, NOT_DONE, CommandFailed
 from rotator.cli.lines import agree, say
 from rotator.cli.reach import consoles
 from rotator.cli.stop import stop_boxes
@@ -35,15 +36,28 @@ def tell(path: Path | None, words: Sequence[str]) -> None:
 
 
 def where(path: Path | None, *, as_json: bool) -> int:
-    """Print the status. Returns the exit code: FAULTY where an axis has a fault."""
-    with RunningBox(path) as box:
-        status = box.status()
-        lines = [] if as_json else box.order("status")
+    """Print the status, with the box that it is of where that is not the one of this folder. Returns the exit code:
+    FAULTY where an axis has a fault. Raises CommandFailed; with `as_json` an object tells a script the same before."""
+    running = [] if path else boxes()
+    try:
+        with RunningBox(path) as box:
+            status = box.status()
+            lines = [] if as_json else box.order("status")
+    except CommandFailed as fault:
+        if as_json:
+            say_json({"error": str(fault), "boxes": [each.fields for each in running]})
+        raise
+    if len(running) == 1 and running[0].folder != Path.cwd():
+        status, lines = {"box": running[0].fields, **status}, [f"box: {running[0].named}", *lines]
     if as_json:
-        click.echo(json.dumps(status, indent=2, ensure_ascii=False))
-    for line in lines:
+        say_json(status)
+    for line in lines if not as_json else ():
         say(line)
     return FAULTY if faults(status) else 0
+
+
+def say_json(value: object) -> None:
+    click.echo(json.dumps(value, indent=2, ensure_ascii=False))
 
 
 def stop(path: Path | None, words: Sequence[str]) -> None:
@@ -52,15 +66,22 @@ def stop(path: Path | None, words: Sequence[str]) -> None:
     click.echo(stop_boxes(consoles(path), all_of_them=path is None))
 
 
-def resume(path: Path | None) -> None:
-    """Release the antenna. Raises CommandFailed for a fault whose cause is still there."""
+def resume(path: Path | None, *, go_on: bool) -> None:
+    """Release the antenna; `go_on`: and track on. Raises CommandFailed for a fault whose cause is still there."""
     with RunningBox(path) as box:
         before = box.status()
-        box.done("resume")
+        try:
+            told = box.done("go-on" if go_on else "resume")
+        except Refused as reason:
+            raise CommandFailed(str(reason), FAULTY if faults(box.status()) else NOT_DONE) from None
         after = box.status()
     if failed := faults(after):
         raise CommandFailed("\n         ".join(("the cause is still there:", *failed)), FAULTY)
-    click.echo("The antenna may move again.")
+    click.echo(f"The antenna may move again{', and goes on with what it tracked' if go_on else ''}.")
+    for line in told if before["stopped_by"] else ():
+        say(f"{line[0].upper()}{line[1:].replace('go-on', '`rotator resume --go-on`')}.")
+    if go_on:
+        return
     if (target := before["tracks"]) and not before["stopped_by"] and not target["recognised"]:
         click.echo(f"It goes on with {target['name']}.")
     if before["storm_park"] and after["moving"]:

@@ -12,18 +12,17 @@ from rotator.protocols.console import VERBS
 from rotator.protocols.console_session import ERROR, ConsoleSession
 from rotator.protocols.session import Box
 
-WORDS = ("park", "resume")
+WORDS = ("park", "resume", "go-on")
 """Words that need Enter."""
 USAGE = {verb.text: verb.usage for verb in VERBS if verb.operands} | {"rotator": "rotator ..."}
 """Commands of the console with more words behind them: there a blank and a `q` are letters."""
 STOP_WORD = "stop"
 """This word needs no Enter: its last letter stops."""
 STOP, QUIT = " ", "q"
-STAYS = "a fault stays until repaired"
 AGAIN = "The antenna is on its way. q again to quit"
 NEXT = "Enter does it"
 """What is said of a word that is whole, and of a beginning of `stop`."""
-CHOICE = f"Type {', '.join((STOP_WORD, *WORDS))}, or a command such as point 180 45"
+CHOICE = f"Type {STOP_WORD}, park, resume, or a command such as point 180 45"
 NO_WORD = "no such word: Enter clears it"
 ENTER, BACK, ESCAPE = "\r\n", "\x7f\b", "\x1b"
 
@@ -85,8 +84,7 @@ class RunKeys:
         if word in WORDS or word.partition(" ")[0] in USAGE:
             *told, last = self._session.receive(f"{word}\n".encode())[0].decode().splitlines()
             refused = last.removeprefix(ERROR) if last.startswith(ERROR) else ""
-            stays = STAYS if word == "resume" and self._box.status().faults else ""
-            self._show("", f"{word}: {refused or stays or '; '.join(told) or 'done'}")
+            self._show("", f"{word}: {refused or '; '.join(told) or 'done'}")
         elif self._typed.startswith(STOP_WORD[0]):
             # `s`, or `stpo`: but for `status` no other word begins so.
             self._stop(f"{STOP_WORD}: done")

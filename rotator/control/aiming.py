@@ -295,6 +295,10 @@ class Aiming:
             self.end_following()
             self._flight = None
 
+    def led_from_deg(self, axis: Axis) -> float | None:
+        """As for GoingRound."""
+        return self._round.led_from_deg(axis)
+
     def notices(self, axis: Axis) -> tuple[Notice, ...]:
         """What a forbidden sector keeps this axis from."""
         return self._round.notices(axis)

@@ -7,6 +7,7 @@ orders, the movements that were ordered, and the fence. Pure: no I/O, no clock, 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
@@ -24,6 +25,7 @@ from rotator.control.rights import deed_of
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
 from rotator.control.shared_supply import kept_off
+from rotator.control.sky.angles import FULL_TURN_DEG
 from rotator.exchange.faults import Notice
 from rotator.exchange.flight_order import Fly, Stream, TakeTurn
 from rotator.exchange.orders import (
@@ -172,7 +174,10 @@ class Controller:
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         more = self._remarks[axis] + self._movements.notices(axis) + self._fence.notices(axis, now_s)
         starts = self._starts.of(axis) if self._axes[axis].has_relays else None
-        return self._axes[axis].status(now_s, starts=starts, more=more)
+        status, led_deg = self._axes[axis].status(now_s, starts=starts, more=more), self._movements.led_from_deg(axis)
+        if led_deg is None:
+            return status
+        return replace(status, missed_deg=led_deg % FULL_TURN_DEG if status.endless else led_deg)
 
     def _take(self, source: Source, order: Order, now_s: float) -> None:
         """Raises Refused where the order cannot be carried out."""

@@ -60,6 +60,11 @@ class GoingRound:
         aiming = self._axes[axis].aiming
         return self._wishes.get(axis, aiming) if aiming is not None and self.detours is not None else aiming
 
+    def led_from_deg(self, axis: Axis) -> float | None:
+        """The target as ordered, while the axis is led to another place; None: it goes to its target, or has none."""
+        aiming, wish = self._axes[axis].aiming, self.wish(axis)
+        return wish.target_deg if aiming and wish and wish.target_deg != aiming.target_deg else None
+
     def turn(self, now_s: float, aim: Aim, from_deg: float) -> tuple[float, bool]:
         """Near which azimuth the target is to be met, and whether over the top: where the way takes the least time.
 

@@ -51,6 +51,10 @@ class Movements:
         """What keeps this axis from its target."""
         return self._aiming.notices(axis)
 
+    def led_from_deg(self, axis: Axis) -> float | None:
+        """As for GoingRound."""
+        return self._aiming.led_from_deg(axis)
+
     def homes_for_another(self, source: Source) -> bool:
         """Whether an axis homes, or waits to, for another source."""
         return self._homing.holds_back(source)
@@ -82,10 +86,8 @@ class Movements:
                 self.park()
                 return
             case Jog(axis):
+                # The other axis goes on to its target, or stays on it. A pass needs both axes: it ends.
                 self._aiming.forget((axis,))
-                if source.is_person:
-                    # It is steered by hand now. A program turns one axis, as with `R` of GS-232.
-                    self._aiming.halt(tuple(each for each, other in self._axes.items() if other.aiming))
                 self._jogs.begin(order, source, now_s)
                 moved = (axis,)
             case Home(axis):
@@ -208,11 +210,14 @@ class Movements:
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> list[Axis]:
         """Faults are acknowledged, and nothing moves before the next order. Returns the axes for which it counts."""
-        if self.faulted:
-            # The order that was in force when the fault came is not taken up again.
-            self._aiming.drop(self.faulted)
+        before = self.faulted
         self._idle.ended()
-        return [axis for axis, control in self._axes.items() if control.acknowledge(now_s, by_person=by_person)]
+        acknowledged = [axis for axis, each in self._axes.items() if each.acknowledge(now_s, by_person=by_person)]
+        if ended := before - self.faulted:
+            # The order that was in force when the fault came is not taken up again. Where the cause is still there, the
+            # order stays as a fault keeps it: shown, and without effect.
+            self._aiming.drop(ended)
+        return acknowledged
 
     def _halt(self, axes: tuple[Axis, ...]) -> None:
         self.timed.halt()

@@ -37,7 +37,8 @@ class AxisStatus:
     target_deg: float | None = None
     """The axis angle that it goes to, or has reached; None: no target."""
     missed_deg: float | None = None
-    """The target that a fault has ended, until a stop, a release or another order comes; None: none was ended."""
+    """The target as ordered, where a fault has ended it or a sector keeps the axis from it; None: it has none, or goes
+    there. A stop, another order, or a release after the cause has gone ends it."""
     tolerance_deg: float | None = None
     """The distance from the target that counts as reached; None: no target."""
     drive: Direction = Direction.OFF
@@ -56,6 +57,8 @@ class AxisStatus:
     calibration: tuple[tuple[float, float], ...] | None = None
     """The present calibration, (raw, degrees), for the configuration file."""
     fault: Fault | None = None
+    fault_present: bool = False
+    """Whether the cause of the fault is still seen: no `resume` ends the fault now."""
     homing: bool = False
     """Whether the axis searches its end stop."""
     notices: tuple[Notice, ...] = ()
@@ -121,8 +124,8 @@ class AxisStatus:
 
     @property
     def ordered_deg(self) -> float | None:
-        """The axis angle last ordered, whether it can go there or a fault keeps it from there; None: no order."""
-        return self.missed_deg if self.target_deg is None else self.target_deg
+        """The axis angle last ordered, whether it goes there or is kept from there; None: no order."""
+        return self.target_deg if self.missed_deg is None else self.missed_deg
 
     @property
     def off_deg(self) -> float | None:
@@ -284,7 +287,7 @@ class Status:
             return ""
         target_deg, wanted_deg = each.target_deg + each.correction_deg, self.wanted_deg(axis)
         off_deg, raised_deg = abs(each.off_deg or 0.0), self.elevation.points_deg or 0.0
-        if off_deg >= SHOWN_OFF_DEG and each.at_target:
+        if off_deg >= SHOWN_OFF_DEG and each.at_target and each.missed_deg is None:
             sky_deg = off_deg * abs(math.cos(math.radians(raised_deg)))
             sky = f", {sky_deg:.1f}° on the sky" if axis is Axis.AZIMUTH else ""
             return f"within tolerance: {off_deg:.1f}° from its target{sky}; it turns from {each.tolerance_deg:.1f}° on"
@@ -293,6 +296,11 @@ class Status:
         if axis is Axis.ELEVATION and wanted_deg is not None and wanted_deg < target_deg - SHOWN_OFF_DEG:
             return f"{wanted_deg:.1f}° is below its range or the horizon: it stays at {target_deg:.1f}°"
         return ""
+
+    @property
+    def ends_a_fault(self) -> bool:
+        """Whether a `resume` ends a fault now: the cause of one of them is gone."""
+        return any(a.fault and not a.fault_present for a in (self.azimuth, self.elevation))
 
     @property
     def faults(self) -> tuple[Fault, ...]:

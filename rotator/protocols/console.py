@@ -68,6 +68,11 @@ class TrackTable:
 
 
 @dataclass(frozen=True, slots=True)
+class GoOn:
+    """Let it move again, and track what was tracked before the stop."""
+
+
+@dataclass(frozen=True, slots=True)
 class ClockIsRight:
     """A person says that this computer's clock is right."""
 
@@ -97,7 +102,7 @@ class Demo:
     times: int
 
 
-PersonCommand = Order | Track | ClockIsRight | Pulse | Demo
+PersonCommand = Order | Track | GoOn | ClockIsRight | Pulse | Demo
 """What a person may ask for on the page as well."""
 ConsoleCommand = PersonCommand | Ask | Hand | TableLine | TrackTable | Pair
 
@@ -119,6 +124,7 @@ VERBS = (
     Verb("status", "[json]", "Angles and targets, who moves the antenna, faults, and what is missing"),
     Verb("stop", "", "Stop everything; nothing moves until `resume`. The rest of the line does not count"),
     Verb("resume", "", "Let it move again, and acknowledge faults"),
+    Verb("go-on", "", "Let it move again, and track what a stop, a fault or a jog has ended"),
     Verb("home", "azimuth|elevation", "Find the low end stop of an axis that counts pulses: watch the antenna"),
     Verb("confirm", "azimuth|elevation DEGREES", "Give the angle of an axis that cannot know it"),
     Verb("relays-checked", "azimuth|elevation", "You have seen that both relays of an axis are open"),
@@ -165,6 +171,8 @@ def parse(line: bytes) -> ConsoleCommand:
             return Stop(latch=True)
         case ["resume"]:
             return Release()
+        case ["go-on"]:
+            return GoOn()
         case ["home", "azimuth" | "elevation" as axis]:
             return Home(Axis(axis))
         case ["confirm", "azimuth" | "elevation" as axis, angle]:

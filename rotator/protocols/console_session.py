@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable
 
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import Mode
+from rotator.exchange.orders import Mode, Release
 from rotator.exchange.spoken import held, sender, spoken
 from rotator.exchange.status import Flown, Status, time_left
 from rotator.protocols.console import TURN_WORDS, VERBS, Ask, Pair, TableLine, Track, TrackTable, parse
@@ -85,6 +85,11 @@ class ConsoleSession(LineTalk):
             case TrackTable(name):
                 refused = self._track_table(name)
                 return _error(refused) if refused else _reply(OK)
+            case Release():
+                refused, left = self._operating.do(command), self._operating.goes_on_with
+                if refused:
+                    return _error(refused)
+                return _reply(f"it tracked {left} before: go-on goes on with that", OK) if left else _reply(OK)
             case _:
                 refused = self._operating.do(command)
                 return _error(refused) if refused else _reply(OK)

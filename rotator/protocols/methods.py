@@ -35,6 +35,7 @@ from rotator.protocols.console import (
     PULSE_S,
     ClockIsRight,
     Demo,
+    GoOn,
     PersonCommand,
     Pulse,
     Track,
@@ -146,6 +147,7 @@ _TURN = Choice("turn", tuple(TURNS), "clockwise, counter-clockwise, up or down")
 METHODS = (
     Method("stop", "Stop everything; nothing moves until `resume`", lambda: Stop(latch=True), free=True),
     Method("resume", "Let it move again, and acknowledge faults", Release),
+    Method("go-on", "The same, and track what a stop, a fault or a jog has ended: `goes_on_with` of the picture", GoOn),
     Method("take", "Take the antenna: it stops, and programs do not move it until `give-back`", Take),
     Method("give-back", "Let programs move the antenna again", GiveBack),
     Method(

@@ -31,9 +31,10 @@ from rotator.exchange.orders import (
 )
 from rotator.exchange.sources import Refusal, Source
 from rotator.exchange.status import Status
-from rotator.protocols.console import PULSE_S, ClockIsRight, Demo, PersonCommand, Pulse, Track
+from rotator.protocols.console import PULSE_S, ClockIsRight, Demo, GoOn, PersonCommand, Pulse, Track
 from rotator.protocols.session import Box, Tracking
 
+NOTHING_LEFT = "nothing was tracked that could go on; `resume` lets the antenna move again"
 SHOWN_S = 0.3
 """So long after an order the status may not show it yet."""
 
@@ -70,6 +71,8 @@ class Operating:
                 return self.refuse(self._track(words))
             case Demo(zone, times):
                 return self.refuse(self._demo(zone, times))
+            case GoOn():
+                return self.refuse(self._go_on())
             case ClockIsRight():
                 if self._tracking is not None:
                     self._tracking.clock_is_right()
@@ -100,8 +103,19 @@ class Operating:
                 pass
             case _:
                 self._resumed_s = self._box.status().at_s if isinstance(order, Release) else -math.inf
+        lasting = _lasting(self._box.status()) if isinstance(order, Release) else ""
         refused = self._box.order(order)
-        return refused.reason if refused else ""
+        return refused.reason if refused else lasting
+
+    def _go_on(self) -> str:
+        """A person lets it move again, and says that it shall go on with what it did before."""
+        left = self.goes_on_with
+        return self._of_another() or (self._obey(Release()) or self._track(left) if left else NOTHING_LEFT)
+
+    @property
+    def goes_on_with(self) -> str:
+        """As `Tracking.goes_on_with`."""
+        return self._tracking.goes_on_with if self._tracking else ""
 
     def _track(self, words: str) -> str:
         if self._tracking is None:
@@ -120,7 +134,8 @@ class Operating:
         status = self._box.status()
         holder = status.held_by if status.held_by != str(self._source) else ""
         held = f"{holder} holds the antenna: the plan is not flown before it is given back" if holder else ""
-        if reason := self._tracking_held() or held or _faulty(status) or tracking.follow_plan():
+        faulty = "" if status.at_s <= self._resumed_s + SHOWN_S else _faulty(status)
+        if reason := self._tracking_held() or held or faulty or tracking.follow_plan():
             return reason
         self._box.order(GiveBack())
         return ""
@@ -184,6 +199,12 @@ class Operating:
         held = holds(replace(status, latched="") if resumed else status, self._source)
         state = hindrance(held, deed)
         return held[state] if state else ""
+
+
+def _lasting(status: Status) -> str:
+    """Why a release lets no faulty axis move: the causes are still there. Empty: a fault ends, or there is none."""
+    lasting = [str(fault) for fault in status.faults if not fault.passing]
+    return f"the cause is still there: {'; '.join(lasting)}" if lasting and not status.ends_a_fault else ""
 
 
 def _faulty(status: Status) -> str:

@@ -44,6 +44,10 @@ class Tracking(Protocol):
     def off(self) -> None:
         """End it; the antenna stops."""
 
+    @property
+    def goes_on_with(self) -> str:
+        """What a stop or another sender has ended, in a person's words; empty: nothing."""
+
     def clock_is_right(self) -> None:
         """A person says that this computer's clock is right."""
 

@@ -64,6 +64,8 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("min_deg", "number", "the low end of its range", lambda axis: _angle(axis.min_deg)),
     Field("max_deg", "number", "the high end of its range", lambda axis: _angle(axis.max_deg)),
     Field("fault", "object or null", "the fault that holds it", lambda axis: _fault(axis.fault)),
+    Field("fault_present", "boolean", "the cause of the fault is still seen: `rotator resume` does not end it now",
+          lambda axis: axis.fault_present),
     Field("confirmable", "boolean", "`rotator confirm` has an effect", lambda axis: axis.confirmable),
     Field("relays_in_doubt", "boolean", "`rotator relays-checked` has an effect",
           lambda axis: axis.relays_in_doubt),

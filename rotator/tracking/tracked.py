@@ -91,6 +91,8 @@ class Tracked:
     """Why the latest request was refused, while the tracking before it goes on."""
     ended: str = ""
     """Why the latest tracking ended by itself."""
+    left: Request = NOTHING
+    """What was tracked when another sender ended that: a person may go on with it."""
     asked: int = 0
     """The number of requests. A plan for an earlier request is not flown."""
     looks_again: bool = False
@@ -112,6 +114,12 @@ class Tracked:
     def following(self) -> bool:
         """Whether the antenna is left to the plan of many passes."""
         return self.follows and not self.request.words
+
+    @property
+    def goes_on_with(self) -> str:
+        """The words of what a stop or another sender has ended; empty: nothing, or a table, which has its own time."""
+        left = self.request if self.request.words and self.held else self.left
+        return "" if left.program else left.words
 
     def text(self, status: Status) -> str:
         """As `Tracker.state`."""
@@ -157,6 +165,7 @@ class Tracked:
             before=before if request.words else NOTHING,
             refused="",
             ended="",
+            left=NOTHING,
             asked=self.asked + 1,
             looks_again=looks_again,
             held="",
@@ -191,8 +200,9 @@ class Tracked:
             return replace(self, request=self.before, before=NOTHING, refused=reason)
         return self.ends(reason)
 
-    def ends(self, reason: str) -> Tracked:
-        return replace(self, request=NOTHING, before=NOTHING, ended=reason)
+    def ends(self, reason: str, left: Request = NOTHING) -> Tracked:
+        """`left`: the request, where a person may want to go on with it."""
+        return replace(self, request=NOTHING, before=NOTHING, ended=reason, left=left)
 
 
 def ends_tracking(order: Order, status: Status) -> bool:

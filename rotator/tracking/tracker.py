@@ -103,6 +103,13 @@ class Tracker:
         rest = self._rest() if text == "off" and following else ""
         return f"rests: {rest}" if rest else text
 
+    @property
+    def goes_on_with(self) -> str:
+        """What a stop or another sender has ended: a person's words, or `plan`; empty: nothing."""
+        with self._lock:
+            words, rests = self._tracked.goes_on_with, self._tracked.following and self._tracked.of_plan
+        return words or ("plan" if rests and self._rest() else "")
+
     def track(self, words: str) -> str:
         """Begin to track. Returns why not; empty: it tracks."""
         try:
@@ -260,7 +267,7 @@ class Tracker:
         with self._lock:
             if asked != self._tracked.asked:
                 return
-            self._tracked = self._tracked.ends(reason)
+            self._tracked = self._tracked.ends(reason, left=self._tracked.request)
         log.warning("tracking of %s has ended: %s", words, reason)
 
 

@@ -14,6 +14,7 @@ from functools import lru_cache
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from hw.ports import Axis
 from rotator.control.sky.angles import direction, great_circle_deg
 from rotator.control.sky.mount import Mount, counted_target
 from rotator.exchange.status import Status
@@ -43,12 +44,14 @@ def pointing(status: Status) -> Way | None:
 
 
 def aimed_at(status: Status) -> Way | None:
-    """The wanted direction: each axis where it was ordered, or at its place if it has no order. None: no axis has one.
+    """The wanted direction: each axis where it was ordered, or at its place if it has no order. None: no axis has one,
+    or one that turns or is faulty has none: its place would ride with the antenna, as if that were on target.
 
     In a planned pass it is the satellite's direction, because there a target is the next place of rest.
     """
     azimuth, elevation = status.azimuth, status.elevation
-    if azimuth.ordered_deg is None and elevation.ordered_deg is None:
+    free = [axis for axis in (azimuth, elevation) if axis.ordered_deg is None]
+    if len(free) == len(Axis) or any(axis.moving or axis.fault or axis.by_itself_dps for axis in free):
         return None
     if status.flown and status.wanted_azimuth_deg is not None and status.wanted_elevation_deg is not None:
         wanted = direction(status.wanted_azimuth_deg, status.wanted_elevation_deg)

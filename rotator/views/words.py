@@ -90,6 +90,8 @@ def _at_rest(status: Status) -> tuple[str, str]:
     if (off := off_deg(status)) is None:
         return "AT REST", PLAIN
     lost = [axis for axis in status.fitted if status.axis(axis).target_deg is None]
+    if any(status.axis(axis).missed_deg is not None for axis in status.fitted if axis not in lost):
+        return "WAITS BESIDE A FORBIDDEN SECTOR", WARNS
     if not lost:
         return "ON TARGET" if off < SHOWN_OFF_DEG else "ON TARGET, WITHIN TOLERANCE", GOOD
     if (there := next((axis for axis in status.fitted if axis not in lost), None)) is None:

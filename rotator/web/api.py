@@ -18,6 +18,7 @@ from rotator.exchange.orders import Jog, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
 from rotator.languages import Wanted, module, reader_language
+from rotator.protocols.console import GoOn
 from rotator.protocols.methods import METHODS, Method, WrongValuesError
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
@@ -215,7 +216,7 @@ class Api:
             except WrongValuesError as reason:
                 self._as(who).refuse(str(reason))
                 raise
-            if isinstance(command, Release) and self._has_stopped_since(request):
+            if isinstance(command, Release | GoOn) and self._has_stopped_since(request):
                 raise RefusedError("it has been stopped again meanwhile: look at it, and press once more", 412)
             if isinstance(command, Stop):
                 refused = self._stop(self._as(who), request.headers.get("Idempotency-Key", ""))

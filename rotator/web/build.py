@@ -77,8 +77,17 @@ def build_page(
     """
     host, port = address(config.page.listen)
     lines, wire_log = LogLines(), WireLog(tap)
-    tracks, known = (lambda: tracking.tracker.state), tracking.clock_is_known
-    scene = Scene(lambda: loop.status, lcd, wires, pairings.named, tracks, utc=time.time, clock_is_known=known)
+    tracker, known = tracking.tracker, tracking.clock_is_known
+    scene = Scene(
+        lambda: loop.status,
+        lcd,
+        wires,
+        pairings.named,
+        lambda: tracker.state,
+        utc=time.time,
+        clock_is_known=known,
+        goes_on_with=lambda: tracker.goes_on_with,
+    )
     recorder, news = Recorder(), News(config.notify.events, 60 * config.notify.before_min)
 
     def hear(_source: Source, order: Order) -> None:

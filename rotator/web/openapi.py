@@ -228,8 +228,8 @@ def order(method: Method, serve: Handler) -> Route:
     values = {value.name: value.schema() for value in method.values}
     body = {**_object(values), "additionalProperties": False, "examples": [example]} if values else None
     access = FREE if method.free else READING if method.harmless else PAIRED
-    headers = {"resume": SINCE, "stop": ONCE}.get(method.name, {})
-    more = refusals(412) if method.name == "resume" else {}
+    headers = {"resume": SINCE, "go-on": SINCE, "stop": ONCE}.get(method.name, {})
+    more = refusals(412) if headers is SINCE else {}
     takes: dict[str, Any] = {"most_body": 0 if method.free else MOST_BODY, "headers": headers, "more": more}
     route = post(f"/api/{method.name}", serve, method.meaning, body, access=access, **takes)
     route.described["operationId"] = method.name

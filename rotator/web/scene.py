@@ -77,6 +77,7 @@ class Picture(TypedDict):
     off_deg: Annotated[float | None, the("from the target")]
     starts: Annotated[int | None, the("of the relays")]
     tracking: Annotated[str, the("off, planning, tracking; ended:, refused: or rests: and why")]
+    goes_on_with: Annotated[str, the("what `go-on` tracks: the words of a target, or plan; empty: nothing")]
     rise_or_set: str
     path: Annotated[str, the("empty, or the key of the flight that /api/path has")]
     stops: Annotated[int, the("how often a person has stopped it since the program began")]
@@ -97,7 +98,7 @@ class Scene:
     """`status` gives the latest status. `lcd` gives the rows of the display, with a code covered.
 
     `named`: the name of a paired browser by its number. `tracks`: as `Tracker.state`.
-    `utc`: seconds since 1970 by the box's clock, and whether that is right.
+    `goes_on_with`: as `Tracker.goes_on_with`. `utc`: seconds since 1970 by the box's clock, and whether that is right.
     """
 
     def __init__(
@@ -108,6 +109,7 @@ class Scene:
         named: Callable[[int], str],
         tracks: Callable[[], str],
         *,
+        goes_on_with: Callable[[], str] = lambda: "",
         utc: Callable[[], float],
         clock_is_known: Callable[[], bool],
     ) -> None:
@@ -116,6 +118,7 @@ class Scene:
         self._wires = wires
         self._named = named
         self._tracks = tracks
+        self._goes_on_with = goes_on_with
         self._utc = utc
         self._clock_is_known = clock_is_known
         self.past = Past(status)
@@ -161,7 +164,8 @@ class Scene:
             "readings": [_short(axis.raw, 4) for axis in (status.azimuth, status.elevation)],
             "off_deg": _short(off_deg(status), 2),
             "starts": _starts(status),
-            "tracking": self._tracks(),
+            "tracking": self.with_names(self._tracks()),
+            "goes_on_with": self._goes_on_with(),
             "rise_or_set": words.rise_or_set(flown, status.at_s) + flown.error_text if flown else "",
             "path": self._path.key if flown and flown.name == self._path.name else "",
             "stops": self.stops,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import socket
 import subprocess
@@ -13,6 +14,7 @@ from typing import Any
 import pytest
 
 from rotator.cli.announced import FOLDER, STATE_OF_A_USER, Home, announced, boxes
+from rotator.cli.console import where
 from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import consoles, quick_monitors, reach
 from rotator.config.places import console_path
@@ -99,6 +101,19 @@ def test_of_two_boxes_elsewhere_none_gets_the_order(new_box: NewBox, tmp_path: P
         f"2 boxes run: the box in {tmp_path}/north; the box in {tmp_path}/south (--config {tmp_path}/south.toml). "
         "Say which: name its file with --config, or go into its folder"
     )
+
+
+def test_a_script_is_told_which_boxes_there_are(
+    new_box: NewBox, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for running in ([], [{"folder": f"{tmp_path}/north", "config": None}]):
+        if running:
+            new_box("north")
+            new_box("south", tmp_path / "south.toml")
+            running.append({"folder": f"{tmp_path}/south", "config": f"{tmp_path}/south.toml"})
+        with pytest.raises(CommandFailed) as told:
+            where(None, as_json=True)
+        assert json.loads(capsys.readouterr().out) == {"error": str(told.value), "boxes": running}
 
 
 def test_a_box_that_was_killed_leaves_nothing_for_long(new_box: NewBox, home: Path) -> None:

@@ -11,6 +11,7 @@ from rotator.control.sky.known_path import KnownPath
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly
 from rotator.exchange.orders import BOTH, Aim, Jog, Leave, LoadTimed, Nudge, Order, Park, Stop
 from rotator.exchange.sources import Source
+from rotator.views.sky_plot import aimed_at
 from tests.tables import every_row
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -150,28 +151,25 @@ def test_a_stop_ends_the_motion_of_the_axes_that_it_names_and_of_no_other(desk: 
         assert (abs(desk.angle_deg[axis] - ordered_deg) < 5.0) is (axis not in axes)
 
 
-HANDS = [Source("console", 1), Source("page", 1), Source("panel")]
+HANDS = [Source("console", 1), Source("page", 1), Source("panel"), Source("gs232b", 1)]
 
 
 @pytest.mark.parametrize("axis", [AZ, EL])
 @pytest.mark.parametrize("hand", HANDS, ids=str)
-def test_who_touches_jog_steers_by_hand_and_the_other_axis_rests(desk: Any, axis: Axis, hand: Source) -> None:
+def test_a_jog_leaves_the_other_axis_its_order(desk: Any, axis: Axis, hand: Source) -> None:
+    """`W200 040`, then `L`; or a button on the page."""
     desk.step(Aim(200.0, 40.0))
     desk.run(1.0)
-    driven = desk.step(Jog(axis, Direction.PLUS, 1.0, held=True), by=hand)
-    assert driven == {each: Direction.PLUS if each is axis else Direction.OFF for each in Axis}
-    assert targets(desk) == (None, None)
-    other = EL if axis is AZ else AZ
-    both = desk.step(Jog(other, Direction.PLUS, 1.0, held=True), by=hand)
-    assert set(both.values()) == {Direction.PLUS}, "a second button does not end the first"
-
-
-def test_a_programs_jog_leaves_the_other_axis_its_order(desk: Any) -> None:
-    """`W200 040`, then `L`."""
-    desk.step(Aim(200.0, 40.0))
-    desk.run(1.0)
-    desk.step(Jog(AZ, Direction.MINUS, 1.0))
-    assert targets(desk) == (None, 40.0)
+    desk.step(Jog(axis, Direction.PLUS, 1.0, held=True), by=hand)
+    assert set(desk.driven.values()) == {Direction.PLUS}
+    assert targets(desk) == ((None, 40.0) if axis is AZ else (200.0, None))
+    assert aimed_at(desk.status) is None, "no target rides along with the axis that is turned by hand"
+    desk.run(60.0)
+    other, ordered_deg = (EL, 40.0) if axis is AZ else (AZ, 200.0)
+    assert desk.angle_deg[other] == pytest.approx(ordered_deg, abs=4.0)
+    desk.step(Jog(other, Direction.MINUS, 1.0, held=True), by=hand)
+    desk.step(Jog(axis, Direction.PLUS, 1.0, held=True), by=hand)
+    assert desk.driven == {axis: Direction.PLUS, other: Direction.MINUS}, "a second button does not end the first"
 
 
 def test_an_order_that_is_not_engaged_stops_both_axes_and_is_shown(desk: Any) -> None:

@@ -32,6 +32,8 @@ from rotator.protocols.console import (
     Ask,
     ClockIsRight,
     ConsoleCommand,
+    Demo,
+    GoOn,
     Pair,
     Pulse,
     TableLine,
@@ -54,6 +56,7 @@ CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"status json", Ask.STATUS_JSON),
     (b"stop", Stop(latch=True)),
     (b"resume", Release()),
+    (b"go-on", GoOn()),
     (b"home azimuth", Home(Axis.AZIMUTH)),
     (b"home elevation", Home(Axis.ELEVATION)),
     (b"confirm azimuth 123.4", Confirm(Axis.AZIMUTH, 123.4)),
@@ -88,6 +91,7 @@ CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"panel jog ccw 1.5", ThrowJog(Axis.AZIMUTH, Direction.MINUS, 1.5)),
     (b"panel stop press", StopButton(True)),
     (b"panel stop release", StopButton(False)),
+    (b"demo europe/prague life", Demo("europe/prague", 1)),
     (b"help", Ask.HELP),
 ]
 ALSO: list[tuple[bytes, ConsoleCommand]] = [
@@ -100,8 +104,8 @@ ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
 ]
 COMMANDS = (
-    "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, pulse, point, nudge, track, table, "
-    "track-table, take, give-back, mode, clock-is-right, panel, pair, help"
+    "status, stop, resume, go-on, home, confirm, relays-checked, let-go, park, jog, pulse, point, nudge, track, "
+    "table, track-table, demo, take, give-back, mode, clock-is-right, panel, pair, help"
 )
 MISTAKES = [
     (b"parc", f"there is no command 'parc'; did you mean park? There are: {COMMANDS}"),

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from rotator.config.station import NO_PLACE
 from rotator.control.sky.timed_table import TimedTable
+from rotator.exchange.orders import GiveBack, Release
 from rotator.protocols.console_session import MOST_TABLE_LINES, ConsoleSession
 from tests.protocols.fed import Notebook
 from tests.protocols.test_console import Feed
@@ -17,6 +18,7 @@ class Sky:
     def __init__(self) -> None:
         self.heard: list[str] = []
         self.state = "off"
+        self.goes_on_with = ""
 
     def track(self, words: str) -> str:
         self.heard.append(words)
@@ -49,6 +51,21 @@ def test_what_is_tracked_and_why_not(feed: Feed) -> None:
     assert feed(session, b"track\n") == [b"off\nok\n"]
     assert feed(session, b"clock-is-right\ntrack off\n") == [b"ok\n", b"ok\n"]
     assert sky.heard == ["iss", "xyz", "the clock is right", "off"]
+
+
+def test_after_a_stop_a_person_alone_says_that_what_was_tracked_goes_on(feed: Feed) -> None:
+    box, sky = Notebook(), Sky()
+    box.shown = replace(box.shown, latched="panel")
+    session = ConsoleSession(box, tracking=sky)
+    sky.goes_on_with = "iss"
+    assert feed(session, b"resume\n") == [b"it tracked iss before: go-on goes on with that\nok\n"]
+    assert sky.heard == []
+    assert feed(session, b"go-on\n") == [b"ok\n"]
+    assert (box.orders, sky.heard) == ([Release(), Release()], ["iss"])
+    sky.goes_on_with = "plan"
+    assert feed(session, b"go-on\n") == [b"ok\n"]
+    assert box.orders[-2:] == [Release(), GiveBack()]
+    assert sky.heard[-1] == "plan"
 
 
 def test_a_table_comes_line_by_line(feed: Feed) -> None:

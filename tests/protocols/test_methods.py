@@ -19,6 +19,7 @@ ON_THE_CONSOLE_ALONE = {"status", "panel", "pair", "help", "table", "track-table
 SAME = [
     (b"stop", "stop", {}),
     (b"resume", "resume", {}),
+    (b"go-on", "go-on", {}),
     (b"take", "take", {}),
     (b"give-back", "give-back", {}),
     (b"park", "park", {}),

@@ -15,6 +15,9 @@ from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
+from rotator.protocols.console import GoOn
+from rotator.protocols.operating import NOTHING_LEFT, Operating
+from rotator.runtime.client import Client
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, FEBRUARY_S, Box, pass_of
 
@@ -196,6 +199,44 @@ def test_a_stop_after_a_fault_ends_the_tracking(rise: Box, orders: list[tuple[So
     rise.wait(5.0)
     assert rise.tracker.state == f"ended: {orders[0][0]} stopped it"
     assert rise.loop.status.flown is None
+
+
+def at_the_console(box: Box) -> Operating:
+    return Operating(Client(box.loop, box.mount, PERSON), box.tracker)
+
+
+def test_after_a_stop_nothing_goes_on_before_a_person_asks_and_then_the_pass_that_is_up(up: Box) -> None:
+    assert up.tracker.track("iss") == ""
+    up.wait(30.0)
+    person = at_the_console(up)
+    assert person.do(GoOn()) == NOTHING_LEFT, "nothing has ended"
+    up.loop.post(PERSON, Stop(latch=True))
+    up.wait(10.0)
+    up.loop.post(PERSON, Release())
+    up.wait(10.0)
+    assert (up.loop.status.flown, up.tracker.goes_on_with) == (None, "iss")
+    up.loop.post(PERSON, Stop(latch=True))
+    up.wait(2.0)
+    assert person.do(GoOn()) == ""
+    up.wait(60.0)
+    assert up.tracker.state == "tracking"
+    assert up.tracker.goes_on_with == ""
+    assert up.loop.status.flown is not None
+    assert up.loop.status.flown.begin_s < up.loop.status.at_s, "it is up, and not the next pass"
+    assert up.off_deg("iss") < 5.0
+
+
+def test_after_a_stop_the_plan_goes_on_when_a_person_asks() -> None:
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    box = Box(found.aos_s + 30.0, follow="[[sky.follow]]\nname = 'iss'\n")
+    box.wait(5.0)
+    box.loop.post(PERSON, Stop(latch=True))
+    box.wait(2.0)
+    assert box.tracker.goes_on_with == "plan"
+    assert at_the_console(box).do(GoOn()) == ""
+    box.wait(5.0)
+    assert box.loop.status.flown is not None
 
 
 def test_after_a_fault_a_program_that_took_the_antenna_keeps_it(rise: Box) -> None:

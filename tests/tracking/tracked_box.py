@@ -103,7 +103,7 @@ class Box:
         station = Station(config, self.clock, self.clock.sleep, (10.0, 0.0), add_alarm=self.clock.add_alarm)
         assert station.world is not None
         self.world = station.world
-        mount = build_mount(config)
+        self.mount = mount = build_mount(config)
         self.loop = ControlLoop(build_controller(config), station.rotor, self.clock, PERIOD_S)
         self.planner = InThisProcess()
         self.clock_trusted = True

@@ -38,6 +38,11 @@ class Attempts:
         return self._faults.fault
 
     @property
+    def present(self) -> bool:
+        """As for FaultLatch."""
+        return self._faults.present
+
+    @property
     def limits(self) -> Range:
         """How far the axis may turn now."""
         return self._stops.limits

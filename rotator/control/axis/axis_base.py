@@ -144,6 +144,7 @@ class AxisBase(ABC, Generic[Settings]):
         trusts: Trusts = ALL_OPEN,
         waiting: bool = False,
         error_deg: float | None = None,
+        fault_present: bool = False,
     ) -> AxisStatus:
         """The status of the axis. The defaults are those of a drive without relays."""
         sensing, limits, aiming = self._sensing, self._settings.limits.shown, self.aiming
@@ -167,6 +168,7 @@ class AxisBase(ABC, Generic[Settings]):
             confirmable=self.confirmable,
             calibration=calibration,
             fault=self.fault,
+            fault_present=fault_present,
             homing=self.homing,
             notices=notices,
             noise_deg=noise_deg,

@@ -6,6 +6,7 @@ program began. Does not know how a fault is found, nor how a motor is stopped.
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import replace
 
@@ -39,6 +40,8 @@ class FaultLatch:
         self.fault = self._named(tried if tries >= TRIES else None)
         self._cause: Fault | None = None
         """The fault whose cause is still present. It stays after an acknowledgement."""
+        self._caused_s = -math.inf
+        """When a cause was seen last."""
         self._tries_s: deque[float] = deque(maxlen=TRIES)
         """When faults last stopped the motor."""
         self._late_s: deque[float] = deque(maxlen=MOST_LATE)
@@ -56,6 +59,7 @@ class FaultLatch:
         """
         self._begin(now_s)
         self._cause = cause
+        self._caused_s = now_s if cause else self._caused_s
         looked_s, self._noted_s = min(now_s - self._noted_s, LOOK_S), now_s
         self._in_order_s = self._in_order_s + looked_s if in_order and not (found or cause) else 0.0
         if self.fault and self.fault.kind in LATE and self._has_passed(now_s):
@@ -80,6 +84,12 @@ class FaultLatch:
             fault = replace(fault, measured=f"{fault.measured}; {OFTEN}")
         self.fault = self._named(fault)
         return True
+
+    @property
+    def present(self) -> bool:
+        """Whether the cause was seen a moment ago: no acknowledgement ends the fault now. After a gap in the readings a
+        watch needs its time again."""
+        return self.fault is not None and self._noted_s - self._caused_s < 2.0 * IN_ORDER_S
 
     def tries(self, now_s: float) -> int:
         """How often faults have stopped the motor lately."""

@@ -249,8 +249,15 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         measured = self._settings.source is AngleSource.MEASURED
         in_vain = measured and self.fault is None and self._stray.in_vain
         tries = Tries(faults, self._faults.kind if faults else None, driven=in_vain)
-        noise_deg = self._readings.noise_deg
-        return self._status(now_s, starts, drive=self._drive, noise_deg=noise_deg, notices=notices, tries=tries)
+        return self._status(
+            now_s,
+            starts,
+            drive=self._drive,
+            noise_deg=self._readings.noise_deg,
+            notices=notices,
+            tries=tries,
+            fault_present=self._faults.present,
+        )
 
     @property
     def _drive(self) -> Direction:

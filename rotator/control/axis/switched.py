@@ -300,6 +300,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
             now_s,
             starts,
             error_deg=self._condition.error_deg,
+            fault_present=self._faults.attempts.present,
             drive=self._relays.direction,
             noise_deg=self._gate.watch.noise_deg,
             notices=self._notices(now_s) + more,

@@ -19,7 +19,7 @@ async function told(answer) {
 }
 
 /** Let it move again. A stop that has come since this picture counts more, also where this request takes longer. */
-export const resume = (now) => post("resume", {}, { "If-Match": `"${now.stops}"` });
+export const resume = (now, how = "resume") => post(how, {}, { "If-Match": `"${now.stops}"` });
 
 /** Ask the box for something. Throws an Error with the box's own sentence. */
 export const post = (path, values, headers) =>

@@ -1,5 +1,6 @@
 // By hand: buttons that turn the antenna while they are held, a target to point at or track, places that are kept, park.
 import { post, read } from "/box.js";
+import { GoesOn } from "/danger.js";
 import { keep } from "/favourites.js";
 import { number, NumberField } from "/numbers.js";
 import { act, fitted, html, useEffect, useRef, useState } from "/ui.js";
@@ -114,6 +115,7 @@ export function Track({ now, known, say }) {
       <span class="hint-line">${place.place[0].toUpperCase()}${place.place.slice(1)}, ${place.km} km</span>`}
     ${tracks && html`<button type="button" onClick=${() => act(post("track", { target: "off" }), say)}>End ${tracks.name}</button>`}
     ${!known && html`<p class="hint-line">Directions alone, because the box does not know where it stands: <a href="#setup">tell it</a>.</p>`}
+    ${!tracks && !now.stopper && html`<${GoesOn} now=${now} say=${say} />`}
     ${said && html`<p class="hint-line" role="status">${said}</p>`}
   </form>`;
 }

@@ -1,5 +1,6 @@
 // The parts of the box as it stands: what it does, who moves it, its display, its relays, its links, what is wrong.
-import { boxTime, post, resume } from "/box.js";
+import { boxTime, post } from "/box.js";
+import { Troubles } from "/danger.js";
 import { act, degrees, fitted, html, useEffect, useState } from "/ui.js";
 
 function minutes(text) {
@@ -85,20 +86,6 @@ export function Strip({ now, paired, fresh, beside, said, say }) {
       <span>${fitted(now.status).map((axis) => about(now, axis)).join(" / ")}</span></p>
     <${Troubles} now=${now} paired=${paired} say=${say} />
     <p class="said" role="status">${said}</p></section>`;
-}
-
-/** Stops and faults: in words, with what to do, and the button that lets it go on. */
-function Troubles({ now, paired, say }) {
-  const faults = [now.status.azimuth.fault, now.status.elevation.fault].filter(Boolean);
-  if (!now.stopper && !faults.length) return null;
-  const again = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(resume(now), say)}>
-    ${now.stopper ? "Let it move again" : `Repaired: go on${now.status.tracks && !now.status.tracks.recognised ? ` with ${now.status.tracks.name}` : ""}`}</button>`;
-  return html`<section class="troubles" role="alert" aria-label="What is wrong">
-    ${faults.map((fault) => html`<p><b>${fault.act_now ? "Act now" : "Fault"}:</b> ${fault.text}</p>`)}
-    ${now.stopper && html`<p><b>Stopped by ${now.stopper}.</b> Nothing moves until a person lets it.</p>`}
-    ${!now.stopper && now.passes ? html`<p>This ends by itself when the cause is gone.</p>` : again}
-    ${!paired && html`<small>for a paired browser</small>`}
-  </section>`;
 }
 
 export function Notes({ now }) {
