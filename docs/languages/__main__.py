@@ -53,6 +53,7 @@ SINGLE = (
         "today",
     ),
     *("N", "E", "S", "W", "now", "done"),
+    *("AOS in {0}", "LOS in {0}", "begins in {0}", "ends in {0}"),
     *("clockwise", "counter-clockwise", "up", "down", "UP", "DOWN"),
 )
 """Words that are no sentence, so that nothing finds them by itself."""
