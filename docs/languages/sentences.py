@@ -24,8 +24,9 @@ ROOMS = (
 )
 _SENTENCE = re.compile(r"[a-z]{2,},? [a-z({\d]|[A-Za-z]{2,} [a-z]{2,}|^\{0\}[:,]? [a-z]{2,}|^[A-Z]{3,} [A-Z]{2,}")
 _NO_SENTENCE = re.compile(
-    r"^[-abs]{3} [-abs]{3} |^\{0\}\{1\}|/api/|max-age|stop = true|as the body of|^bold|: write .*rotator|^[\w.-]+$"
-    r"|[<>]|^/|\\|==|^rotator [a-z]|Content-|\bsvg\b|^[a-z-]+ '|; |%[sd]|`"
+    r"^[-abs]{3} [-abs]{3} | \+ Enter: |^(?:relays-checked|home|confirm) \{|^\{0\}\{1\}|/api/|max-age|stop = true"
+    r"|as the body of|^bold|: write .*rotator|^[\w.-]+$|[<>]|^/|\\|==|^rotator [a-z]|Content-|\bsvg\b"
+    r"|^[a-z-]+ '|; |%[sd]|`"
 )
 _SILENT = frozenset(
     [
@@ -60,6 +61,8 @@ def _read_nodes(tree: ast.AST) -> Iterator[ast.expr]:
         match child:
             case ast.Expr(value=ast.Constant()) | ast.Assert() | ast.Import() | ast.ImportFrom():
                 continue
+            case ast.ClassDef(name="State" | "Deed" | "Trust"):
+                continue  # rows and columns of a table in the documents
             case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name)) if name in _SILENT:
                 continue
             case ast.Subscript(value=ast.Name(id="Literal" | "Annotated")):

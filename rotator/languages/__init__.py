@@ -59,6 +59,24 @@ def reader_language(wanted: Wanted, accepted: str) -> Language:
 
 
 def module(language: Language) -> bytes:
-    """The catalogue as the page imports it."""
-    messages = json.dumps(catalogue(language), ensure_ascii=False, separators=(",", ":"))
-    return f'export const language = "{language}", messages = {messages};\n'.encode()
+    """The catalogue as the page imports it: the keys in one text, the translations in another, a line each.
+
+    A message without values is looked for as it stands: five letters tell it from all others.
+    """
+    told = catalogue(language)
+    order = sorted(told, key=lambda text: ("{0}" in text, text))
+    keys = json.dumps("\n".join(text if "{0}" in text else short(text) for text in order), ensure_ascii=False)
+    words = json.dumps("\n".join(told[text] for text in order), ensure_ascii=False)
+    return f'export const language = "{language}", keys = {keys}.split("\\n"), words = {words}.split("\\n");\n'.encode()
+
+
+def short(text: str) -> str:
+    """A text in five letters or fewer (FNV-1a, 25 bits): words.js does the same."""
+    number = 0x811C9DC5
+    for sign in text:
+        number = ((number ^ ord(sign)) * 0x01000193) & 0xFFFFFFFF
+    number, letters = number >> 7, ""
+    while number:
+        number, digit = divmod(number, 36)
+        letters = "0123456789abcdefghijklmnopqrstuvwxyz"[digit] + letters
+    return letters or "0"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from docs.languages.__main__ import mistakes, texts
-from rotator.languages import DISPLAY, LANGUAGES, Wanted, catalogue, module, reader_language
+from rotator.languages import DISPLAY, LANGUAGES, Wanted, catalogue, module, reader_language, short
 
 OTHERS = [language for language in LANGUAGES if language != "en"]
 
@@ -32,7 +32,12 @@ def test_what_is_translated_keeps_its_values_and_fits_the_display(language: str)
     assert [line for line in mistakes(language) if "no translation" not in line] == []
 
 
+def test_no_two_messages_have_the_same_key() -> None:
+    messages = {text for text, context in texts() if not context}
+    assert len({short(text) for text in messages}) == len(messages)
+
+
 def test_english_needs_no_catalogue() -> None:
     assert catalogue("en") == catalogue("auto") == {}
-    assert b"messages = {}" in module("en")
+    assert b'words = ""' in module("en")
     assert ("STANDS STILL", DISPLAY) in texts()

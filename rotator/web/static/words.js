@@ -1,13 +1,13 @@
 // The page in the reader's language. Templates are translated before they are parsed, once each: every text between two
 // tags is a message, with its values as {0}, {1}, and so are the attributes that a person hears or reads. Sentences that
 // the box sends are English: they are found by the message that they were made of. What has no translation stays English.
-import { language, messages } from "/language.js";
+import { keys, language, words } from "/language.js";
 
 const FIRST = 0xe000, VALUE = /[\ue000-\uf8ff]/, VALUES = /[\ue000-\uf8ff]/g, WORD = /\p{L}{2}/u, AT_LINES = /^\s*\n\s*|\s*\n\s*$/g;
 const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE = /([\w-]+)=(?:"([^"]*)"|'([^']*)')/g, GIVEN = /([\w-]+)=([\ue000-\uf8ff])/g;
 const READ = ["aria-label", "title", "placeholder", "label", "alt"], VERBATIM = ["code", "pre", "svg", "style"], MOST_KEPT = 3000;
 const SEPARATORS = [/([.!?] +|[.!?]+$)/, /(; +)/, /(: +)/, /(, +)/, /( and )/, /( ?\(|\)$)/];
-const known = new Map(Object.entries(messages)), kept = new Map(), cuts = new WeakMap();
+const known = new Map(words[0] ? keys.map((key, at) => [key, words[at]]) : []), kept = new Map(), cuts = new WeakMap();
 
 /** Texts that were shown, and have no translation: for the tests. */
 export const missed = new Set();
@@ -40,7 +40,15 @@ export function cut(texts, look) {
   return { texts: whole.split(VALUE), order: (whole.match(VALUES) ?? []).map(number), shown };
 }
 
-const look = (message) => known.get(message) || (missed.add(message), "");
+/** The key of a message without values, as `rotator.languages.short` makes it. */
+function short(text) {
+  let number = 0x811c9dc5;
+  for (let at = 0; at < text.length; at++) number = Math.imul(number ^ text.charCodeAt(at), 0x01000193);
+  return (number >>> 7).toString(36);
+}
+
+const exact = (text) => known.get(short(text));
+const look = (message) => (message.includes("{0}") ? known.get(message) : exact(message)) || (missed.add(message), "");
 
 /** The same template and its values, in the reader's language. */
 export function inWords(texts, values) {
@@ -52,7 +60,7 @@ export function inWords(texts, values) {
 
 /** A sentence with its numbers and names, in the reader's language. */
 export function said(text) {
-  if (!WORD.test(text)) return known.get(text) || text;
+  if (!WORD.test(text)) return exact(text) || text;
   if (known.size && !kept.has(text)) {
     if (kept.size > MOST_KEPT) kept.clear();
     const plain = text.trim(), told = found(plain);
@@ -64,8 +72,8 @@ export function said(text) {
 
 /** Null: it is in no catalogue. A sentence is looked for as it stands, by its pattern, then, if not `whole`, in pieces. */
 function found(text, whole) {
-  if (known.get(text)) return known.get(text);
-  const small = text[0].toLowerCase() + text.slice(1), told = small !== text && known.get(small);
+  if (exact(text)) return exact(text);
+  const small = text[0].toLowerCase() + text.slice(1), told = small !== text && exact(small);
   if (told) return told[0].toUpperCase() + told.slice(1);
   for (const { pattern, translation, open } of patterns(text)) {
     const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value.trim(), open) : value]);
@@ -74,8 +82,8 @@ function found(text, whole) {
   if (whole) return null;
   const pieces = SEPARATORS.map((separator) => text.split(separator)).find((each) => each.length > 1) ?? [];
   // A sentence may stand in the catalogue with its mark: "Stop it!"
-  const marked = (at) => known.get(pieces[at] + (pieces[at + 1] ?? "").trim())?.slice(0, -1);
-  const others = pieces.map((piece, at) => (piece === " and " ? known.has("and") && ` ${known.get("and")} ` : WORD.test(piece) ? found(piece) ?? marked(at) : null));
+  const marked = (at) => exact(pieces[at] + (pieces[at + 1] ?? "").trim())?.slice(0, -1);
+  const others = pieces.map((piece, at) => (piece === " and " ? exact("and") && ` ${exact("and")} ` : WORD.test(piece) ? found(piece) ?? marked(at) : null));
   return others.some((each) => each) ? pieces.map((piece, at) => others[at] || piece).join("") : null;
 }
 
