@@ -102,7 +102,7 @@ def test_from_a_box_without_a_file_to_the_iss(bare: Station, visit: Visit) -> No
         assert not (bare.folder / "rotator.toml").exists()
         finger.press("Write it and start anew")
         in_sight(page, page.get_by_text(f"Written to {bare.folder / 'rotator.toml'}. The box runs with it now."))
-        page.get_by_text("What is up now").wait_for()  # the page has heard of the new box
+        page.get_by_text("What is up now is on").wait_for()  # the page has heard of the new box
         page.get_by_text("This box runs without a file").wait_for(state="detached")
         if page.get_by_role("button", name="The time of the box is right").count():
             finger.press("The time of the box is right")

@@ -58,7 +58,7 @@ def test_what_cannot_be_ordered_now_says_why(start: Start, visit: Visit) -> None
 def test_a_box_without_a_place_offers_no_target_in_the_sky(start: Start, visit: Visit) -> None:
     page = visit(start())
     pair(page)
-    page.get_by_role("link", name="Sky", exact=True).click()
+    page.get_by_role("link", name="Plan", exact=True).click()
     expect(page.get_by_role("button", name="Track Moon")).to_be_disabled()
     page.get_by_text("Directions alone, because the box does not know where it stands").wait_for()
     assert page.get_by_role("button", name="Follow the plan").count() == 0

@@ -44,8 +44,8 @@ export function Place({ settings, now, known }) {
       <input id="elements-from" list="sources" maxlength="300" autocomplete="off" spellcheck="false" placeholder="nowhere else" value=${wanted} onInput=${change(from)} aria-describedby="elements-about" aria-invalid=${bad.length > 0} />
       <datalist id="sources">${Object.keys(SOURCES).map((each) => html`<option value=${each} />`)}</datalist>
       ${bad.map((each) => html`<p class="mistake" role="alert">${each.text}</p>`)}
-      <p class="about" id="elements-about">Or another address, https:// and so on. Empty: from nowhere new; the view Sky takes a file, too.${fetched.length > 0 && html` Now: ${[fetched].flat().map((each) => html`<code>${each}</code> `)}`}</p></div>
+      <p class="about" id="elements-about">Or another address, https:// and so on. Empty: from nowhere new; the view Plan takes a file, too.${fetched.length > 0 && html` Now: ${[fetched].flat().map((each) => html`<code>${each}</code> `)}`}</p></div>
     ${!(proposed && !mistakes.length) && html`<button type="submit" class="go" disabled=${settings.busy !== ""}>See what is written</button>`}
     ${view}
-    ${known && html`<p>What is up now, and when satellites pass: <a href="#sky">the view Sky</a>.</p>`}</form>`;
+    ${known && html`<p>What is up now is on <a href="#">the first view</a>; when satellites pass, on <a href="#sky">the view Plan</a>.</p>`}</form>`;
 }
