@@ -16,6 +16,7 @@ run: $(VENV)/.run
 test: $(VENV)/.dev
 	@failed=0; \
 	$(MAKE) --no-print-directory style || failed=1; \
+	$(MAKE) --no-print-directory languages-check || failed=1; \
 	$(MAKE) --no-print-directory tests || failed=1; \
 	echo "Left to make check: the types. Left to make test-search: what takes long. To make test-quiet: real time."; \
 	exit $$failed
