@@ -14,6 +14,8 @@ from functools import cache
 from pathlib import Path
 from typing import Literal, get_args
 
+from rotator.exchange.foreign import json_of
+
 Language = Literal["en", "de", "fr", "es", "it", "pt", "cs"]
 Wanted = Literal["auto", "en", "de", "fr", "es", "it", "pt", "cs"]
 """`auto`: what each reader's browser asks for."""
@@ -40,7 +42,7 @@ def catalogue(language: str, context: str = "") -> Mapping[str, str]:
 
 
 def _text(quoted: str) -> str:
-    return str(json.loads(f'"{quoted}"'))
+    return str(json_of(f'"{quoted}"'))
 
 
 def reader_language(wanted: Wanted, accepted: str) -> Language:
