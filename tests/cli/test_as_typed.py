@@ -12,7 +12,7 @@ import pytest
 
 from rotator.cli import main as commands
 from rotator.cli.commands import Number
-from rotator.config.load import load, parse, shipped
+from rotator.config.load import parse, shipped
 
 
 @pytest.mark.parametrize("text", ["12.5", "12,5", "12.5°", "12,5 °", "12.5deg", " 12.5 degrees"])
@@ -68,17 +68,21 @@ def test_a_file_that_may_not_be_read_says_what_to_do(tmp_path: Path, capsys: pyt
     assert "you may not read it" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("command", ["run", "doctor"])
-def test_the_file_of_this_folder_is_named(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without --config the simulated rotor runs: a person who has just written a file should know."""
-    load(None)
-    (tmp_path / "rotator.toml").write_text(shipped())
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.parametrize(
+    ("command", "says"),
+    [("run", " starts with rotator.toml\n"), ("doctor", "rotator.toml: a simulated rotor\n")],
+)
+def test_the_file_of_this_folder_is_taken_and_named(command: str, says: str, tmp_path: Path) -> None:
+    (tmp_path / "rotator.toml").write_text('[rotor]\nhardware = "sim"\n[page]\nenabled = false\n')
     begun = subprocess.Popen(
-        [sys.executable, "-m", "rotator", command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        [sys.executable, "-m", "rotator", command],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        cwd=tmp_path,
     )
     assert begun.stdout is not None
-    lines = [next(begun.stdout) for _ in range(2 if command == "run" else 1)]
+    first = next(begun.stdout)
     begun.terminate()
     begun.communicate(timeout=60)
-    assert f"rotator {command} --config rotator.toml" in lines[-1]
+    assert first.endswith(says)

@@ -52,7 +52,9 @@ def test_help_loads_the_command_line_alone(tmp_path: Path, words: list[str]) -> 
     assert found & SLOW == set()
 
 
-HEALTHY = b'{"storm_park": false, "tracks": null, "azimuth": {"fault": null}, "elevation": {"fault": null}}\n'
+HEALTHY = b"""
+{"storm_park": false, "stopped_by": "", "tracks": null, "azimuth": {"fault": null}, "elevation": {"fault": null}}
+""".lstrip()
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ Visit = Callable[..., "Page"]
 
 @pytest.mark.parametrize("locale", ["en-US", "de-DE"])
 def test_a_comma_and_a_point_mean_the_same_in_every_language(start: Start, visit: Visit, locale: str) -> None:
-    station = start()
+    station = start(page='language = "en"')
     page = visit(station, locale=locale)
     pair(page)
     page.get_by_label("Azimuth", exact=True).press_sequentially("12,5")
@@ -51,7 +51,7 @@ def test_a_phone_shows_a_minus_wherever_a_number_may_be_below_zero(start: Start,
     """The keyboard for decimals has none on an iPhone: a longitude in America, an elevation below the horizon."""
     page = visit(start())
     pair(page)
-    page.get_by_role("link", name="Setup").click()
+    page.get_by_role("link", name="Setup", exact=True).click()
     page.get_by_text("Place and time").click()
     assert page.get_by_label("longitude_deg").first.get_attribute("inputmode") == "text"
     assert page.get_by_label("altitude_m").first.get_attribute("inputmode") == "text"

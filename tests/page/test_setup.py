@@ -44,7 +44,7 @@ def open_step(page: Page, title: str) -> None:
 
 def at_setup(page: Page) -> None:
     pair(page)
-    page.get_by_role("link", name="Setup").click()
+    page.get_by_role("link", name="Setup", exact=True).click()
     page.get_by_role("heading", name="Setup").wait_for()
 
 
