@@ -154,16 +154,16 @@ def test_the_list_is_for_the_keyboard(start: Start, visit: Visit, tmp_path: Path
 
 
 @pytest.mark.parametrize(
-    ("tables", "said"),
+    ("tables", "said", "link"),
     [
-        ("", "The box does not know where it stands."),
-        (f'[station]\nlocator = "{LOCATOR}"\n', "No satellites are known"),
+        ("", "The box does not know where it stands", "tell it"),
+        (f'[station]\nlocator = "{LOCATOR}"\n', "No satellites are known", "Setup, step 8"),
     ],
     ids=["no place", "no elements"],
 )
 def test_a_box_without_a_place_or_satellites_says_what_to_do(
-    start: Start, visit: Visit, tables: str, said: str
+    start: Start, visit: Visit, tables: str, said: str, link: str
 ) -> None:
     up = visit(start(tables)).get_by_role("region", name="Up now")
     up.get_by_text(said).wait_for(timeout=COMPUTED_MS)
-    up.get_by_role("link", name="Setup, step 8").wait_for()
+    up.get_by_role("link", name=link).wait_for()

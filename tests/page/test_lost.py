@@ -244,3 +244,18 @@ def test_passes_that_are_still_computed_are_asked_for_again(start: Start, visit:
     page.get_by_text("The box computes passes and plan").wait_for()
     page.get_by_role("cell", name="AO-91").wait_for()
     assert len(asked) == 2
+
+
+def test_an_answer_that_is_cut_off_changes_nothing(start: Start, visit: Visit) -> None:
+    """As when the box starts anew while it answers."""
+    page, cut = visit(start()), list[str]()
+
+    def within(route: Route) -> None:
+        cut.append(route.request.url)
+        route.fulfill(status=200, content_type="application/json", body='{"rows": [[0')
+
+    page.locator(".plot .turned").wait_for(state="attached")
+    page.route("**/api/past", within)
+    waits_for(page, lambda: len(cut) > 1)
+    page.locator(".plot .turned").wait_for(state="attached")
+    headline(page, "AT REST")

@@ -67,7 +67,7 @@ function Antenna({ station, now, hello, fresh, say }) {
       <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${pick} flying=${flying} /></div>
       <div class="pick">${one && html`<div class="panel"><${Chosen} one=${one} now=${now} hello=${hello} say=${say} onClose=${() => choose(null)} /></div>`}
         ${paired && directionOf(draft) && html`<div class="panel"><${Orders} now=${now} hello=${hello} quiet><${ThereFromSky} station=${station} draft=${draft} say=${say} /><//></div>`}
-        ${dome && html`<div class="panel"><${UpNow} sky=${sky} fault=${fault} known=${station.where} chosen=${chosen} choose=${choose} /></div>`}</div>
+        ${dome && html`<div class="panel"><${UpNow} sky=${sky} fault=${fault} known=${station.where} clockKnown=${now.clock_known} chosen=${chosen} choose=${choose} /></div>`}</div>
       ${paired && html`<div class="panel favourites-panel"><${Favourites} now=${now} hello=${hello} station=${station} say=${say} /></div>`}
       <div class="panel timeline-panel"><${Timeline} now=${now} station=${station} hello=${hello} say=${say} /></div>
       <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}

@@ -13,8 +13,10 @@ function within(ms) {
 }
 
 async function told(answer) {
-  const found = await answer.json().catch(() => ({}));
-  if (!answer.ok) throw new Error(found.error ?? `the box answers ${answer.status}`);
+  const found = await answer.json().catch(() => undefined);
+  if (!answer.ok) throw new Error(found?.error ?? `the box answers ${answer.status}`);
+  // Cut off within: by a new start of the box, by a bad network, or after all the patience of this page.
+  if (found === undefined) throw new Error(NO_ANSWER);
   return found;
 }
 

@@ -2,6 +2,7 @@
 // A real rotor has no such button, and its box refuses the order.
 import { post, read } from "/box.js";
 import { Keeps } from "/flown.js";
+import { trackingSaid } from "/hand.js";
 import { act, html, useEffect, useEvery, useState } from "/ui.js";
 
 const MARK = ", demo", FAST = " 10×", LOOK_MS = 1000, PATIENCE_LOOKS = 60;
@@ -20,6 +21,12 @@ export function Demo({ now, say }) {
   useEffect(() => {
     if (flight) (setSince(now.utc_s), setLeft(null), setLooks(0), ask(false));
   }, [flight?.name]);
+  // A plan that could not be made is told, and the button is there again.
+  useEffect(() => {
+    if (!asked || flight || now.tracking === "planning") return;
+    ask(false);
+    say(trackingSaid(now.tracking));
+  }, [now.tracking]);
   const waits = since > 0 && !flight && !left && looks < PATIENCE_LOOKS;
   useEvery(LOOK_MS, async () => {
     if (!waits) return;

@@ -6,7 +6,7 @@ import { Orders } from "/orders.js";
 import { clock, place, wayAt } from "/sky.js";
 import { act, html, useEffect, useMemo, useRef, useState } from "/ui.js";
 
-const EVERY_MS = 60_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, MOVES_MS = 200, TAIL_S = 75, ROWS = 60;
+const EVERY_MS = 60_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, NONE_MS = 5000, MOVES_MS = 200, TAIL_S = 75, ROWS = 60;
 const TOUCH_PX = 22, LABEL_REM = 0.82, LINE = 1.25, EDGE = 103, POINTS = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
 // What the backdrop has written there: the heights of its two rings.
 const HEIGHTS = [30, 60].map((el) => ({ textX: 4, textY: (-100 * (90 - el)) / 90 - 3, text: "00°" }));
@@ -32,7 +32,7 @@ export function useOverhead(wanted) {
       // One of an earlier evening is computed anew.
       const holds = sky && sky.until_s > seconds();
       if (holds) setTold({ sky, fault: "" });
-      timer = setTimeout(load, holds ? EVERY_MS : COMPUTES_MS);
+      timer = setTimeout(load, !holds ? COMPUTES_MS : sky.satellites ? EVERY_MS : NONE_MS);
     }, (fault) => {
       if (gone) return;
       setTold((before) => ({ ...before, fault: fault.message }));
@@ -164,14 +164,14 @@ export function Chosen({ one, now, hello, say, onClose }) {
 }
 
 /** The same as a list: for the keyboard, for who hears the page, and to find a name. */
-export function UpNow({ sky, fault, known, chosen, choose }) {
+export function UpNow({ sky, fault, known, clockKnown, chosen, choose }) {
   const at = Math.floor(seconds());
   const rows = useMemo(() => (sky?.up ?? []).filter((one) => !(one.los_s < at)).map((one) => [one, where(one, at)])
     .sort(([one, way], [other, that]) => !way - !that || !one.rank - !other.rank || one.aos_s - other.aos_s), [sky, at]);
   const up = rows.filter(([, way]) => way).length;
   return html`<section class="upnow" aria-label="Up now"><h2>${sky ? `${up} up now` : "Up now"}</h2>
-    ${!known ? html`<p>The box does not know where it stands. <a href="#setup">Setup, step 8</a></p>` : fault ? html`<p>${fault}</p>` : !sky && html`<p role="status">The box computes the sky …</p>`}
-    ${sky && !sky.satellites && html`<p>${sky.why_none}. <a href="#setup/8">Setup, step 8</a></p>`}
+    ${!known ? html`<p>The box does not know where it stands: <a href="#setup">tell it</a>.</p>` : fault ? html`<p>${fault}</p>` : !sky && html`<p role="status">The box computes the sky …</p>`}
+    ${sky && !sky.satellites && html`<p>${clockKnown ? `${sky.why_none}.` : "The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:"} <a href="#setup/8">Setup, step 8</a></p>`}
     <ul>${rows.slice(0, ROWS).map(([one, way]) => html`<li key=${key(one)}><button type="button" class=${way ? one.rank || "other" : "soon"} aria-pressed=${key(one) === chosen} onClick=${() => choose(key(one))}>
       <b>${one.short}</b><span>${way ? `${Math.round(wayAt(way)[1])}° ${POINTS[Math.round(wayAt(way)[0] / 45) % 8]}` : `in ${span(one.aos_s - at)}`}</span></button></li>`)}</ul>
     ${rows.length > ROWS && html`<p class="hint-line">and ${rows.length - ROWS + sky.left_out} more on the sky</p>`}</section>`;
