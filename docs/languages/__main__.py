@@ -53,6 +53,11 @@ SINGLE = (
         "today",
     ),
     *("N", "E", "S", "W", "now", "done"),
+    *("North", "East", "South", "West", "Yes", "Back", "Directions", "Times", "Limits"),
+    *(f"Turn it {way}." for way in ("clockwise", "up")),
+    *(f"Now turn it back, {way}." for way in ("counter-clockwise", "down")),
+    *(f"Did the antenna turn {way}?" for way in ("clockwise, seen from above", "up")),
+    *(f"Did it turn back, {way}?" for way in ("counter-clockwise", "down")),
     *("AOS in {0}", "LOS in {0}", "begins in {0}", "ends in {0}"),
     *("clockwise", "counter-clockwise", "up", "down", "UP", "DOWN"),
 )

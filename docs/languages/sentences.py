@@ -21,18 +21,25 @@ ROOMS = (
     *("rotator/control", "rotator/exchange", "rotator/rotors", "rotator/tracking", "rotator/views/words.py"),
     *("rotator/runtime/card_watch.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
     *("rotator/web", "rotator/links/wire.py", "rotator/setup/questions.py"),
+    *(f"rotator/calibrating/{each}_guide.py" for each in ("axis", "table", "degrees", "stopwatch", "field")),
+    *(f"rotator/calibrating/{each}.py" for each in ("guide", "phrases", "question", "on_page", "readings", "table_draft")),
+    *("rotator/calibrating/rig.py", "rotator/calibrating/at_start.py"),
 )
 _SENTENCE = re.compile(r"[a-z]{2,},? [a-z({\d]|[A-Za-z]{2,} [a-z]{2,}|^\{0\}[:,]? [a-z]{2,}|^[A-Z]{3,} [A-Z]{2,}")
 _NO_SENTENCE = re.compile(
     r"^[-abs]{3} [-abs]{3} | \+ Enter: |^(?:relays-checked|home|confirm) \{|^\{0\}\{1\}|/api/|max-age|stop = true"
     r"|as the body of|^bold|: write .*rotator|^[\w.-]+$|[<>]|^/|\\|==|^rotator [a-z]|Content-|\bsvg\b"
-    r"|^[a-z-]+ '|; |%[sd]|`"
+    r"|^[a-z-]+ '|; |%[sd]|`|\bEnter\b|\by or n\b|\bor b:|\bor n:|rotator calibrate|^which no |^field |^reading"
+    r"|\? lists|nothing here|back here|^Type y |^b takes|^the arrows|^Setting up the|compass \{1\}$|t angle:$"
 )
+_KEY = re.compile(r"\{\w+_key\}")
+"""A key that turns an axis: for a terminal."""
 _SILENT = frozenset(
     [
         *("the", "one_of", "get", "post", "component", "live", "compile", "getLogger", "Logger", "match", "fullmatch"),
         *("sub", "log", "debug", "info", "warning", "exception", "critical", "Method", "startswith", "endswith"),
         *("partition", "rpartition", "split", "removeprefix", "removesuffix", "create_task", "Thread"),
+        *("_lead", "_head"),  # a guide's lines for a terminal
     ]
 )
 """Calls whose texts nobody reads on the page."""
@@ -44,6 +51,7 @@ MOST_CHOICES = 8
 def messages(path: Path) -> list[str]:
     """The messages of one file."""
     found = [text for node in _read_nodes(ast.parse(path.read_text(encoding="utf-8"))) for text in _texts(node)]
+    found = [text for text in found if not _KEY.search(text)]
     wanted = [text for text in dict.fromkeys(map(_clean, found)) if _SENTENCE.search(text)]
     # In the page's own room what begins with a capital describes the API.
     described = "web" in path.parts

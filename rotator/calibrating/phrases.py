@@ -99,20 +99,20 @@ class Phrases:
     did_it_turn = _Sentence("Did the antenna turn {seen}?")
     did_it_turn_back = _Sentence("Did it turn back, {minus}?")
     swap = _Sentence(
-        "Then swap {plus_relay} and {minus_relay} in [relays] of the file (or the two wires), and begin again.",
+        "Then swap {plus_relay} and {minus_relay} in [relays] of the file (or the two wires), and begin again. "
         "Nothing is saved.",
     )
     same_way = _Sentence(
-        "Refused: {plus} and {minus} move the reading the same way. Do both relays drive one direction?",
+        "Refused: {plus} and {minus} move the reading the same way. Do both relays drive one direction? "
         "Nothing is saved.",
     )
     reads_backwards = _Sentence(
-        "Refused: it turned {plus}, and the reading fell. `forward` and `up` of {axis}.sensor do not match how the",
+        "Refused: it turned {plus}, and the reading fell. forward and up of {axis}.sensor do not match how the "
         "board is mounted (rotator help sensors). Nothing is saved.",
     )
     homing = _Lines(
         "Watch the antenna: it turns {minus} to its stop, a little back, and there again.",
-        "The box cannot tell a stop from a branch that the antenna hangs in; you can.",
+        "The box cannot tell a stop from a branch that the antenna hangs in, but you can.",
     )
     stopwatch = _Lines(
         "The box turns the {axis} from stop to stop, and you watch the antenna: answer when it has arrived and stands.",
@@ -122,7 +122,7 @@ class Phrases:
     time_to_high = _Sentence("Now {plus}, to the other stop. The watch runs from the motor's start to your answer.")
     time_to_low = _Sentence("And back, {minus}.")
     too_slow = _Sentence(
-        "if it was still on its way, the rotor is slower than the file says: write a smaller {axis}.speed_dps,",
+        "if it was still on its way, the rotor is slower than the file says: write a smaller {axis}.speed_dps, "
         "take the times out, and begin again.",
     )
     to_low_end = _Sentence("2. The {low_end}. Drive it there with {minus_key} ({minus}).")
@@ -137,12 +137,12 @@ class Phrases:
 
     def timed(self, times_s: tuple[float, float]) -> tuple[str, str]:
         return (
-            self.worded(f"From stop to stop it takes {times_s[0]:g} s {{plus}} and {times_s[1]:g} s {{minus}}."),
+            f"From stop to stop it takes {times_s[0]:g} s {self.plus} and {times_s[1]:g} s {self.minus}.",
             "Its angle is reckoned by these times, so it drifts with wind and cold: home it now and then.",
         )
 
     def may_be_sent(self, low_deg: float, high_deg: float) -> str:
-        return self.worded(f"The {{axis}} may be sent to angles from {low_deg:g}° to {high_deg:g}°.")
+        return f"The {self._words['axis']} may be sent to angles from {low_deg:g}° to {high_deg:g}°."
 
     def turned_wrong(self, remedy: str) -> str:
         """What to change when the antenna turned the other way; an empty `remedy` means the relays."""

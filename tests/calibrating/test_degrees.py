@@ -87,7 +87,7 @@ def test_an_elevation_that_turned_the_wrong_way(calibration: Any, fault: str, an
 def test_a_board_that_lies_the_other_way_round(calibration: Any) -> None:
     run = calibration(GRAVITY, Axis.ELEVATION, start_deg=(200.0, 40.0))
     run.world.inject("elevation-motor-reversed")  # as seen from the board: the reading falls while the relay says up
-    assert "`forward` and `up` of elevation.sensor" in run.say("u", "y")
+    assert "forward and up of elevation.sensor" in run.say("u", "y")
     assert run.guide.result is None
 
 
