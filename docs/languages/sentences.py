@@ -22,8 +22,8 @@ ROOMS = (
     *("rotator/runtime/card_watch.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
     *("rotator/web", "rotator/links/wire.py", "rotator/setup/questions.py"),
     *(f"rotator/calibrating/{each}_guide.py" for each in ("axis", "table", "degrees", "stopwatch", "field")),
-    *(f"rotator/calibrating/{each}.py" for each in ("guide", "phrases", "question", "on_page", "readings", "table_draft")),
-    *("rotator/calibrating/rig.py", "rotator/calibrating/at_start.py"),
+    *(f"rotator/calibrating/{each}.py" for each in ("guide", "phrases", "question", "on_page", "readings")),
+    *(f"rotator/calibrating/{each}.py" for each in ("table_draft", "rig", "at_start")),
 )
 _SENTENCE = re.compile(r"[a-z]{2,},? [a-z({\d]|[A-Za-z]{2,} [a-z]{2,}|^\{0\}[:,]? [a-z]{2,}|^[A-Z]{3,} [A-Z]{2,}")
 _NO_SENTENCE = re.compile(
