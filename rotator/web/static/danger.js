@@ -30,8 +30,7 @@ function Releases({ now, paired, say }) {
     ${helps && html`<div class="releases">
       <button type="button" class="go" disabled=${!paired} onClick=${() => act(resume(now), say)}>
         ${now.stopper ? "Let it move again" : tracks && !tracks.recognised ? `Repaired: go on with ${tracks.name}` : "Repaired: go on"}</button>
-      ${paired && (now.stopper || !tracks) && html`<${GoesOn} now=${now} say=${say} />`}</div>`}
-    ${!paired && html`<small>for a paired browser</small>`}`;
+      ${paired && (now.stopper || !tracks) && html`<${GoesOn} now=${now} say=${say} />`}</div>${!paired && html`<small>for a paired browser</small>`}`}`;
 }
 
 const stopped = (now) => now.stopper && html`<p><b>Stopped by ${now.stopper}.</b> Nothing moves until a person lets it; then programs that send orders move it, too.</p>`;

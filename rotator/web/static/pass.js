@@ -1,6 +1,7 @@
 // Pass mode: a phone in the hand of a person at the antenna. One look tells where the antenna, the target and the phone
 // point, and how long it lasts; a thumb nudges while tracking stays on. What the browser does not give it says itself.
 import { boxTime, post, read } from "/box.js";
+import { hindrance } from "/orders.js";
 import { act, degrees, fitted, html, useEffect, useEvery, useRef, useState } from "/ui.js";
 
 const STEP_DEG = 1, MOST_DEG = 20, NO_EVENT_MS = 3000, NEXT_MS = 10_000, SHOWN_MS = 600, UPRIGHT_DEG = 50;
@@ -157,7 +158,8 @@ export function PassMode({ now, station, hello, fresh, say }) {
     <div class="bar"><a href="#">Leave</a>
       ${now.status.simulated && html`<strong class="sim">SIM</strong>`}
       <div class="choice" role="group" aria-label="Light">${LOOKS.map(([each, label]) => html`<button type="button" aria-pressed=${look === each} onClick=${() => choose(each)}>${label}</button>`)}</div></div>
-    <div class="until"><h1>${name}</h1><b>${time}</b></div>
+    <div class="until"><h1>${name}</h1><b>${time}</b>
+      ${hello.paired && !now.status.tracks && next?.name && hindrance(now, hello) === "" && html`<button type="button" class="go" onClick=${() => act(post("track", { target: next.name }), say)}>Track ${next.name}</button>`}</div>
     <${Compass} now=${now} beamDeg=${station.beam_deg} phone=${phone} />
     <dl class=${fresh ? "" : "old"}><div class="of-antenna"><dt>antenna</dt><dd>${way(now.antenna)}</dd></div><div class="of-target"><dt>target</dt><dd>${way(now.target)}</dd></div>
       <div><dt>off by</dt><dd>${now.off_deg == null ? "---" : degrees(now.off_deg)}</dd></div>
