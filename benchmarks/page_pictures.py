@@ -120,7 +120,8 @@ def _each(browser: Any, into: Path, paired: Any, view: str, high: int) -> None:
                     page.locator(".plot .turned").wait_for(state="attached")
                     page.locator(".key.next").wait_for()
                 case "sky":
-                    page.locator(".plan td").first.wait_for()
+                    page.locator(".timeline .flown").first.wait_for()
+                    page.locator(".passes td").first.wait_for()
                 case "setup":
                     _unfold(page)
                 case "doctor":

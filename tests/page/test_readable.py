@@ -109,6 +109,9 @@ BEYOND = """() => {
     return seen;
 }"""
 """What is beyond the window's sides, or cut at its own."""
+SMALL = """() => [...document.querySelectorAll("button, nav a")].filter((one) => one.checkVisibility()
+    && one.getBoundingClientRect().height < 43.9).map((one) => one.textContent)"""
+"""What a thumb misses."""
 
 
 @pytest.mark.parametrize(("width", "height"), [(320, 568), (390, 844)])
@@ -123,6 +126,7 @@ def test_larger_text_leaves_stop_on_the_screen(start: Start, visit: Visit, width
         page.locator(shows).first.wait_for(timeout=COMPUTED_MS)
         for step in page.locator(".step > summary").all():
             step.evaluate("summary => summary.click()")
+        assert page.evaluate(SMALL) == [], view
         for percent in (100, 130, 200):
             page.evaluate(f"document.documentElement.style.fontSize = '{percent}%'")
             assert page.evaluate(BEYOND) == [], (view, percent)
@@ -131,6 +135,7 @@ def test_larger_text_leaves_stop_on_the_screen(start: Start, visit: Visit, width
             placed = stop["x"], stop["width"], round(stop["y"] + stop["height"])
             assert placed == (0, width, height), (view, percent)
             assert page.evaluate("visualViewport.width") == width, (view, percent)
+        page.evaluate("document.documentElement.style.fontSize = ''")
 
 
 def test_the_keyboard_alone_points_and_turns(start: Start, visit: Visit) -> None:
