@@ -53,6 +53,8 @@ SINGLE = (
         "today",
     ),
     *("N", "E", "S", "W", "now", "done"),
+    "The file begins as the shipped one of this rotor. `rotator help wiring` shows each.",
+    "One is enough to begin; a [[link]] more for each other. `rotator help programs` lists them all.",
     *("North", "East", "South", "West", "Yes", "Back", "Directions", "Times", "Limits"),
     *(f"Turn it {way}." for way in ("clockwise", "up")),
     *(f"Now turn it back, {way}." for way in ("counter-clockwise", "down")),
