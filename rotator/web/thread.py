@@ -114,8 +114,8 @@ class PageThread:
                 loop.call_soon_threadsafe(stop.set)
         if self._thread.is_alive():
             self._thread.join(JOIN_S)
-        if self._socket is not None:
-            self._socket.close()
+        if self._socket is not None and not self._thread.is_alive():
+            self._socket.close()  # a thread that still loads its libraries closes it itself
         for each in self._kept:
             each.forget()
         self.wire.state = "closed"
@@ -150,6 +150,8 @@ class PageThread:
             from rotator.web.live import Live  # noqa: PLC0415
 
             parts = self._build()
+        if self._stopping.is_set():
+            return
         connections = Connections(parts.doors.lets_in, self._clock)
         live = Live(parts.scene.now, parts.scene.past.note, self._clock)
         runner = web.AppRunner(

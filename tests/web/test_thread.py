@@ -8,6 +8,7 @@ import threading
 import time
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -16,6 +17,7 @@ from rotator.config.load import parse
 from rotator.runtime.event_watch import EventWatch
 from rotator.store.paired import FILE_NAME
 from rotator.web.build import build_pairings
+from rotator.web.thread import PAGE_THREAD, PageThread
 from tests.boxes import file_with_page, free_port
 from tests.web.conftest import page_of
 
@@ -37,6 +39,25 @@ def test_its_event_loop_is_watched_from_its_start_to_its_end(tmp_path: Path) -> 
     finally:
         page.stop()
     assert events.stalled_s(100.0) == 0.0, "a page that has ended is not watched"
+
+
+def test_a_box_that_ends_while_its_page_still_loads_has_nothing_to_say(caplog: pytest.LogCaptureFixture) -> None:
+    """A small Pi loads its libraries for seconds: the end of the box does not wait for that."""
+    loads, goes_on = threading.Event(), threading.Event()
+
+    def build() -> Any:
+        loads.set()
+        goes_on.wait(PATIENCE_S)
+
+    page = PageThread("127.0.0.1", free_port(), build, [], lambda: 0.0, events=EventWatch(lambda: 0.0))
+    page.start()
+    loads.wait(PATIENCE_S)
+    (thread,) = [each for each in threading.enumerate() if each.name == PAGE_THREAD]
+    page.stop()
+    goes_on.set()
+    thread.join(PATIENCE_S)
+    assert not thread.is_alive()
+    assert caplog.records == []
 
 
 @pytest.mark.long
