@@ -81,6 +81,7 @@ def test_discovery_finds_both_by_their_names(tmp_path: Path) -> None:
     assert [device.uuid for device in found] == [controller.uuid for controller in world.can.controllers.values()]
 
 
+@pytest.mark.quiet
 def test_the_librarys_own_move_to_arrives(tmp_path: Path) -> None:
     async def talk(transport: Any) -> None:
         controllers = [moteus.Controller(id=can_id, transport=transport) for can_id in (1, 2)]
