@@ -14,6 +14,7 @@ import click
 from rotator.cli import sky_plan
 from rotator.cli.sky import read_sky
 from rotator.cli.utc import local_time
+from rotator.orbits.catalogue import NOT_FETCHED
 from rotator.orbits.names import amateur_name
 from rotator.orbits.overhead import Overhead, overhead
 from rotator.orbits.satellite import Satellite
@@ -54,7 +55,8 @@ def show_up(path: Path | None, at_s: float | None, *, as_json: bool) -> None:
     )
     told = {"utc_s": now_s, "until_s": until_s, "left_out": max(0, len(ranked) - MOST)}
     # Without any, the sentence says what to do about it.
-    known = {"satellites": len(satellites), "why_none": "" if satellites else catalogue.none_known}
+    why_none = "" if satellites else catalogue.none_known
+    known = {"satellites": len(satellites), "why_none": why_none, "unfetched": why_none == NOT_FETCHED}
     click.echo(json.dumps({**told, **known, "up": [_as_dict(*row) for row in ranked[:MOST]]}))
 
 

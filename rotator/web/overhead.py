@@ -47,6 +47,7 @@ class _Sky(TypedDict):
     left_out: Annotated[int, the("how many more there are, of those that count least")]
     satellites: Annotated[int, the("how many are known, up or not")]
     why_none: Annotated[str, the("what to do where no satellite is known; else empty")]
+    unfetched: Annotated[bool, the("none is known because none has been fetched yet")]
 
 
 _Areas = TypedDict("_Areas", {"areas": Annotated[list[Area], the("azimuth from and to, elevation from and to")]})

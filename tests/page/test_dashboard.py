@@ -55,13 +55,19 @@ def test_a_held_button_turns_and_a_lost_connection_stops(start: Start, visit: Vi
     box = button.bounding_box()
     assert box is not None
     page.mouse.move(box["x"] + 20, box["y"] + 20)
-    page.mouse.down()
-    waits_for(page, lambda: station.world().antenna_deg[0] > 5.0)
+
+    def turns_beyond(angle_deg: float) -> bool:
+        """On a busy machine the box may end the hold: then it is pressed again."""
+        if not page.locator(".jog.held").count():
+            page.mouse.up()
+            page.mouse.down()
+        return station.world().antenna_deg[0] > angle_deg
+
+    waits_for(page, lambda: turns_beyond(5.0))
     page.mouse.up()
     headline(page, "AT REST")
     stood_deg = station.world().antenna_deg[0]
-    page.mouse.down()
-    waits_for(page, lambda: station.world().antenna_deg[0] > stood_deg + 5.0)
+    waits_for(page, lambda: turns_beyond(stood_deg + 5.0))
     page.context.set_offline(True)
     waits_for(page, lambda: station.world().drives == (0, 0))
 

@@ -171,7 +171,7 @@ export function UpNow({ sky, fault, known, clockKnown, chosen, choose }) {
   const up = rows.filter(([, way]) => way).length;
   return html`<section class="upnow" aria-label="Up now"><h2>${sky ? `${up} up now` : "Up now"}</h2>
     ${!known ? html`<p>The box does not know where it stands: <a href="#setup">tell it</a>.</p>` : fault ? html`<p>${fault}</p>` : !sky && html`<p role="status">The box computes the sky …</p>`}
-    ${sky && !sky.satellites && html`<p>${clockKnown ? `${sky.why_none}.` : "The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:"} <a href="#setup/8">Setup, step 8</a></p>`}
+    ${sky && !sky.satellites && html`<p>${clockKnown || !sky.unfetched ? `${sky.why_none}.` : "The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:"} <a href="#setup/8">Setup, step 8</a></p>`}
     <ul>${rows.slice(0, ROWS).map(([one, way]) => html`<li key=${key(one)}><button type="button" class=${way ? one.rank || "other" : "soon"} aria-pressed=${key(one) === chosen} onClick=${() => choose(key(one))}>
       <b>${one.short}</b><span>${way ? `${Math.round(wayAt(way)[1])}° ${POINTS[Math.round(wayAt(way)[0] / 45) % 8]}` : `in ${span(one.aos_s - at)}`}</span></button></li>`)}</ul>
     ${rows.length > ROWS && html`<p class="hint-line">and ${rows.length - ROWS + sky.left_out} more on the sky</p>`}</section>`;
