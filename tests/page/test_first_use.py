@@ -141,7 +141,7 @@ class Finger:
 
         self.turns += 1
         turn(self.page, name, stands, COMPUTED_MS)
-        return round(seen_deg[-1])
+        return round(seen_deg[0])  # the last look may be after the motor stopped
 
     def _press(self, what: Locator) -> None:
         what.click(timeout=COMPUTED_MS)  # waits until it is there, can be pressed, and stands still

@@ -134,11 +134,15 @@ def test_names_touch_no_other_and_what_is_followed_has_one(
 def test_the_sky_is_large_in_every_window(start: Start, visit: Visit, width: int, height: int, share: float) -> None:
     """It is the first thing on the page: whole on the screen, above STOP."""
     page = visit(start(), viewport={"width": width, "height": height})
-    circle, stop = page.locator(".skyview .sky").bounding_box(), page.locator("#stop").bounding_box()
-    assert circle is not None
-    assert stop is not None
-    assert circle["width"] >= share * min(width, height)
-    assert circle["y"] + circle["height"] <= stop["y"]
+
+    def is_whole() -> bool:
+        """A busy machine may tell of a late sensor for a moment, above the sky."""
+        circle, stop = page.locator(".skyview .sky").bounding_box(), page.locator("#stop").bounding_box()
+        assert circle is not None
+        assert stop is not None
+        return circle["width"] >= share * min(width, height) and circle["y"] + circle["height"] <= stop["y"]
+
+    waits_for(page, is_whole)
 
 
 def test_the_list_is_for_the_keyboard(start: Start, visit: Visit, tmp_path: Path) -> None:
