@@ -19,11 +19,18 @@ function stateNow() {
   return Notification.permission === "granted" && localStorage.getItem(KEY) === "on" ? "on" : "off";
 }
 
-/** A phone shows notices only by a worker. It does nothing else, and keeps nothing. */
-async function show(title, body) {
-  const worker = await navigator.serviceWorker.register("/notices-worker.js");
-  await navigator.serviceWorker.ready;
-  await worker.showNotification(said(title), { body: said(body), icon: "/icon-192.png", tag: title });
+/** A phone shows notices only by a worker. It does nothing else, and keeps nothing. A worker that is not there yet is
+    asked again. */
+async function show(title, body, tries = 5) {
+  try {
+    await navigator.serviceWorker.register("/notices-worker.js");
+    const worker = await navigator.serviceWorker.ready;
+    await worker.showNotification(said(title), { body: said(body), icon: "/icon-192.png", tag: title });
+  } catch (fault) {
+    if (tries === 1) throw fault;
+    await new Promise((again) => setTimeout(again, 1000));
+    await show(title, body, tries - 1);
+  }
 }
 
 /** What is to be told now, by a key that is the same as long as it lasts: [title, text]. */
