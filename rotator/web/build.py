@@ -144,6 +144,7 @@ def build_page(
         elements = ElementFiles(tracking.sky, uploads, fetches, config.sky.fetch, changed=read_again, utc=time.time)
         folder = Path(config.state.path).parent
         flown = FlownPictures(FlownPasses(folder), recorder, mount, lambda: loop.status, time.time)
+        webhook = Webhook(config.notify, lambda: news.step(loop.status, tracking.upcoming(), time.time()))
         return PageParts(
             status=lambda: loop.status,
             client=lambda source: Client(loop, mount, source),
@@ -169,7 +170,7 @@ def build_page(
             ),
             works=(
                 flown.run,
-                Webhook(config.notify, lambda: news.step(loop.status, tracking.upcoming(), time.time())).run,
+                *([webhook.run] if config.notify.url else []),
             ),
             language=config.page.language,
             closes=(passes.close, up.close, days.close, elements.close),

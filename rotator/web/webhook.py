@@ -44,12 +44,11 @@ class Webhook:
         """Why the latest notice was not taken. The log has each new reason once."""
 
     async def run(self) -> None:
-        """Look and post until cancelled; for ever, if there is no address."""
+        """Look and post until cancelled. There is an address."""
         sending = asyncio.create_task(self._send(), name="page: notices")
         try:
             while True:
-                if self._table.url:
-                    self._waiting.extend(self._news())
+                self._waiting.extend(self._news())
                 await asyncio.sleep(LOOK_S)
         finally:
             sending.cancel()

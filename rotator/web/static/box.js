@@ -30,37 +30,24 @@ export const post = (path, values, headers) =>
 /** Send a file. The box may take a while to check it. */
 export const send = (path, file) => asked(path, { body: file, signal: within(60_000) });
 
-async function asked(path, request) {
-  let answer;
-  try {
-    answer = await fetch(`/api/${path}`, { method: "POST", ...request });
-  } catch {
-    throw new Error(NO_ANSWER);
-  }
-  return told(answer);
-}
-
-/** Send a file. Throws an Error with the box's own sentence. */
-export async function upload(path, file) {
-  let answer;
-  try {
-    answer = await fetch(`/api/${path}`, { method: "POST", headers: { "Content-Type": "application/zip" }, body: file, signal: within(20_000) });
-  } catch {
-    throw new Error(NO_ANSWER);
-  }
-  return told(answer);
-}
+/** Send a backup. Throws an Error with the box's own sentence. */
+export const upload = (path, file) =>
+  asked(path, { headers: { "Content-Type": "application/zip" }, body: file, signal: within(20_000) });
 
 /** Read something. Null: the box still computes it, so ask again. Throws an Error with the box's own sentence. */
 export async function read(path) {
-  let answer;
+  const answer = await answered(path, { signal: within(5000) });
+  return answer.status === 202 ? null : told(answer);
+}
+
+const asked = async (path, request) => told(await answered(path, { method: "POST", ...request }));
+
+async function answered(path, request) {
   try {
-    answer = await fetch(`/api/${path}`, { signal: within(5000) });
+    return await fetch(`/api/${path}`, request);
   } catch {
     throw new Error(NO_ANSWER);
   }
-  if (answer.status === 202) return null;
-  return told(answer);
 }
 
 let boxAheadMs = 0;

@@ -8,7 +8,7 @@ const WAYS = { azimuth: ["clockwise", "counter-clockwise"], elevation: ["up", "d
 const faulty = (now) => fitted(now.status).filter((axis) => now.status[axis].fault);
 
 /** The axes that the box cannot stop, or that turn in spite of their fault. */
-export const runaways = (now) => faulty(now).filter((axis) => now.status[axis].fault.act_now || now.status[axis].by_itself_dps);
+const runaways = (now) => faulty(now).filter((axis) => now.status[axis].fault.act_now || now.status[axis].by_itself_dps);
 
 /** What `go-on` goes on with, as a person says it; empty: nothing. */
 const before = (now) => (now.goes_on_with === "plan" ? "the plan" : now.goes_on_with);

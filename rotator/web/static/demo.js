@@ -11,7 +11,7 @@ const clock = (seconds) => `${Math.floor(seconds / 60)}:${String(Math.round(seco
 const zone = () => Intl.DateTimeFormat().resolvedOptions().timeZone || "Europe";
 
 /** What stands where a flight stands that may be a demo pass; null: none is flown. */
-export const demoOf = (now) => (now.status.tracks?.name.includes(MARK) ? now.status.tracks : null);
+const demoOf = (now) => (now.status.tracks?.name.includes(MARK) ? now.status.tracks : null);
 
 export function Demo({ now, say }) {
   const { status } = now, flight = demoOf(now);

@@ -32,7 +32,7 @@ function kept(name, other) {
 
 /** Where the phone points, [azimuth, elevation]: with its upper edge where it lies flat, with its back where it is held up.
     Null: this event does not tell. `turned`: by how much the picture is turned on the phone. */
-export function phonePoints({ alpha, beta, gamma, absolute, webkitCompassHeading: heading }, turned = 0) {
+function phonePoints({ alpha, beta, gamma, absolute, webkitCompassHeading: heading }, turned = 0) {
   if (beta == null || gamma == null) return null;
   // Safari tells the heading of the upper edge, and alpha from anywhere.
   if (heading != null) return [around(heading + turned), beta > UPRIGHT_DEG ? beta - 90 : beta];
