@@ -33,10 +33,21 @@ class KernelPackages:
 
 
 def current() -> KernelPackages:
-    """The kernel that Debian installs today. Raises StageError where apt knows none."""
-    image = _first(_depends("linux-image-amd64"), r"linux-image-\d.*-amd64")
+    """The newest kernel that Debian installs today and has all the packages of. Raises StageError where apt knows none.
+
+    Debian's archive publishes a security update in two halves, hours apart: the image, which it signs, waits for the
+    other packages of its version or outlives them. Until both are there, the kernel before it is the newest.
+    """
+    for version in _versions("linux-image-amd64"):
+        packages = _of(version)
+        if all(version in _versions(name) for name in (*packages.unpacked, packages.source)):
+            return packages
+    raise StageError("apt knows no Debian kernel (linux-image-amd64): run apt-get update, on Debian for amd64")
+
+
+def _of(version: str) -> KernelPackages:
+    (image,) = (name for name in _depends(f"linux-image-amd64={version}") if name.startswith("linux-image-"))
     release = image.removeprefix("linux-image-")
-    version = _first(_apt_cache("show", image), r"Version: (.*)")
     series = ".".join(version.split(".")[:2])
     headers = f"linux-headers-{release}"
     needs = [name for name in _depends(f"{headers}={version}") if HEADERS_NEED.fullmatch(name)]
@@ -91,15 +102,13 @@ def _deb(folder: Path, name: str) -> Path:
 
 
 def _depends(name: str) -> list[str]:
-    return re.findall(r"Depends: (\S+)", "\n".join(_apt_cache("depends", name)))
+    return re.findall(r"Depends: (\S+)", _apt_cache("depends", name))
 
 
-def _apt_cache(*words: str) -> list[str]:
-    return run(["apt-cache", *words], Path("/")).splitlines()
+def _versions(name: str) -> list[str]:
+    """What apt can download of the package, newest first."""
+    return re.findall(r"^\s*\S+ \| +(\S+) \|", _apt_cache("madison", name), re.MULTILINE)
 
 
-def _first(lines: list[str], pattern: str) -> str:
-    for line in lines:
-        if found := re.fullmatch(pattern, line.strip()):
-            return found[found.re.groups]
-    raise StageError("apt knows no Debian kernel (linux-image-amd64): run apt-get update, on Debian for amd64")
+def _apt_cache(*words: str) -> str:
+    return run(["apt-cache", *words], Path("/"))
