@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Generic, TypeVar
 
 from hw.ports import Direction
-from rotator.control.axis.end_calibration import EndCalibration
+from rotator.control.axis.calibration_table import EndCalibration
 from rotator.control.axis.goals import HomeGoal, JogGoal, SeekGoal, jog
 from rotator.control.axis.readings import NORMAL, Reading
 from rotator.control.axis.sensing import Sensing

@@ -9,20 +9,73 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Protocol
 
 from hw.ports import Direction
-from rotator.control.axis.blind_watch import BlindWatch
 from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS, doubts, unstoppable
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_watch import RelayWatch
-from rotator.control.axis.run_watch import RunWatch
+from rotator.control.axis.run_watch import BlindWatch, RunWatch
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.timed_homing import TimedHomingSettings
+from rotator.control.axis.vain_runs import VainRuns
 from rotator.control.commands import Feed, Run
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, Notice
-from rotator.exchange.motor import Motor, Trust
+from rotator.exchange.motor import Motor, Trust, Trusts
+
+
+class RelayWatch(Protocol):
+    """What watches the relays of one axis. Give it every change of them (`note_relays`) and every good reading (`see`),
+    in order of time. A question changes nothing."""
+
+    runs: VainRuns
+    """Those that were not seen to turn the axis."""
+
+    @property
+    def trusts(self) -> Trusts:
+        """What is known of the two relays."""
+
+    @property
+    def looks(self) -> bool:
+        """Whether the axis has to be seen at rest before any relay closes."""
+
+    @property
+    def unsure(self) -> bool:
+        """Whether a relay may be closed, and the readings will not show that any more."""
+
+    @property
+    def noise_deg(self) -> float:
+        """Scatter of the readings, rms, as seen up to now."""
+
+    @property
+    def notices(self) -> tuple[Notice, ...]: ...
+
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
+
+    def see(self, at_s: float, angle_deg: float, condition: Condition) -> Fault | None:
+        """Take a reading. Returns the fault that it shows, if any."""
+
+    def homes(self, *, homing: bool, failed: bool) -> None:
+        """Whether the axis looks for its end stop, and may stand there, driven. `failed`: a fault has ended that."""
+
+    def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
+        """The readings mean other places than before. What is known of the relays stays."""
+
+    def forbids(self, direction: Direction) -> bool:
+        """Whether this relay must not close yet, because its opposite may still be closed."""
+
+    def accuse(self, direction: Direction) -> Fault | None:
+        """The fault of an order in this direction, as long as the opposite relay is suspected."""
+
+    def acknowledge(self) -> None:
+        """The fault is acknowledged: the supply comes back with the next order."""
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open."""
+
 
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""

@@ -1,8 +1,8 @@
 """The watch over an axis that counts: how long its motor may run in one go, and when its opposite relay may close.
 
-Knows what the relays do and how long the travel takes; `contact_watch` and `silent_runs` say what its contact shows. A
+Knows what the relays do and how long the travel takes; `contact_watch` and `vain_runs` say what its contact shows. A
 count cannot run the wrong way, for the counter takes the direction from the relays. The counter itself sees pulses that
-are missing in one long run, and pulses at rest.
+are missing in one long run, and pulses at rest. Of an axis from which nothing comes back, the first alone is watched.
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.axis.relay_faults import WAYS, accusation, unstoppable
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
-from rotator.control.axis.silent_runs import SilentRuns
-from rotator.control.axis.vain_runs import VainRuns
+from rotator.control.axis.vain_runs import SilentRuns, VainRuns
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind, Notice
-from rotator.exchange.motor import Motor, Trusts
+from rotator.exchange.motor import ALL_OPEN, Motor, Trusts
 
 TRAVEL_SHARE, TRAVEL_MORE_S = 1.3, 5.0
 """A motor may run this much longer in one go than the travel from end to end takes."""
@@ -67,7 +66,7 @@ class RunWatch:
         self._contact = ContactWatch(self._trusts, limits, period_s, self._period_deg, coast_s, look=look)
         self._silent = SilentRuns(axis)
         self.runs = VainRuns(Estimator(motors, 0.0))
-        """A count shows no place between two pulses; `silent_runs` tells of its runs."""
+        """A count shows no place between two pulses; `SilentRuns` tells of its runs."""
         self._relays = RelayState()
         self._angle_deg: float | None = None
 
@@ -135,3 +134,52 @@ class RunWatch:
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""
         self._contact.checked()
+
+
+class BlindWatch:
+    """The `RelayWatch` of an axis that is reckoned by time. `travel`: from stop to stop.
+
+    Whether it turns, which way, and whether a relay has opened, nothing shows: so no relay is ever doubted here, and no
+    fault that needs a reading is found.
+    """
+
+    notices: tuple[Notice, ...] = ()
+    noise_deg = 0.0
+    trusts: Trusts = ALL_OPEN
+    looks = False
+    unsure = False
+
+    def __init__(self, axis: Axis, travel: Range, motors: Mapping[Direction, Motor]) -> None:
+        self._axis = axis
+        self._travel = travel
+        self._slowest_dps = min(motor.speed_dps for motor in motors.values())
+        self.runs = VainRuns(Estimator(motors, 0.0))
+        """Never told of a run: of none it could be seen to be in vain."""
+        self._relays = RelayState()
+
+    def note_relays(self, relays: RelayState) -> None:
+        self._relays = relays
+
+    def see(self, at_s: float, _angle_deg: float, _condition: Condition = NORMAL) -> Fault | None:
+        relays = self._relays
+        if not relays.closed:
+            return None
+        return endless(self._axis, relays.direction, at_s - relays.since_s, self._travel, self._slowest_dps)
+
+    def homes(self, *, homing: bool, failed: bool) -> None:
+        """At its stop it looks like anywhere else."""
+
+    def rescale(self, _motors: Mapping[Direction, Motor], *, placed: bool) -> None:
+        """The travel stays as long."""
+
+    def forbids(self, _direction: Direction) -> bool:
+        return False
+
+    def accuse(self, _direction: Direction) -> Fault | None:
+        return None
+
+    def acknowledge(self) -> None:
+        """No fault of this watch keeps the supply off."""
+
+    def checked(self) -> None:
+        """No relay is ever in doubt."""

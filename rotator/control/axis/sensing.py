@@ -10,9 +10,8 @@ import math
 from collections import deque
 
 from hw.ports import Axis
-from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY_BAD, BadReadings
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.readings import LOOK_S, Reading, Window
+from rotator.control.axis.readings import LOOK_S, LOOKED_AT, TOO_MANY_BAD, BadReadings, Reading, Window
 from rotator.control.axis.sparks import SeenAt, Sparks
 from rotator.exchange.faults import Fault, FaultKind, Notice
 

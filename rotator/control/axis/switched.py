@@ -12,8 +12,7 @@ from dataclasses import replace
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.axis_base import AxisBase
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.goals import HomeGoal, JogGoal, SeekGoal
-from rotator.control.axis.place_anew import PlaceAnew
+from rotator.control.axis.goals import HomeGoal, JogGoal, PlaceAnew, SeekGoal
 from rotator.control.axis.reach import Reach, lost
 from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate

@@ -7,17 +7,67 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from hw.ports import AngleSource
+from hw.ports import AngleSource, Direction
 from rotator.control.axis.attempts import Attempts
 from rotator.control.axis.motion_watch import TURNS
 from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import RelayGate
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.rock import Rock
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.commands import Run
 from rotator.exchange.faults import Fault, FaultKind, Notice
 from rotator.exchange.motor import ALL_OPEN, Tries
+
+ROCK_S = 0.5
+"""The length of the run the other way."""
+GIVES_UP_S = 4.0
+"""A run that could not begin for so long, at a limit for example, is left out."""
+
+
+class Rock:
+    """The rock of an axis whose wedge brake sticks: once, a short run the other way, so that the wedge comes free.
+
+    Does not know why the axis stands, nor whether a run is permitted.
+    """
+
+    def __init__(self, *, wanted: bool) -> None:
+        self._wanted = wanted
+        self._spent = False
+        self._way = self._way_tried = Direction.OFF
+        """The way of the run that is to come or goes on, OFF: there is none; and of the latest one."""
+        self._from_s = 0.0
+
+    @property
+    def may_begin(self) -> bool:
+        """Whether the operator wants it, and it was not tried since the axis turned or a person looked."""
+        return self._wanted and not self._spent
+
+    def begin(self, now_s: float, stood: Direction) -> None:
+        """The motor ran in this direction, and the axis stood."""
+        self._spent, self._from_s = True, now_s
+        self._way = self._way_tried = Direction(-stood)
+
+    def renew(self) -> None:
+        """A person has looked: the next wedge that sticks gets its own try."""
+        self._spent = False
+
+    def turned(self, way: Direction) -> None:
+        """Driven in this direction the axis turns: if it is the one in which it stood, the try has helped."""
+        self._spent = self._spent and way is self._way_tried
+
+    def end(self) -> None:
+        self._way = Direction.OFF
+
+    def run(self, now_s: float, relays: RelayState, lease_s: float) -> Run | None:
+        """The run the other way; None: it is over, or there is none."""
+        begun = relays.last is self._way and relays.begun_s >= self._from_s
+        until_s = relays.begun_s + ROCK_S if begun else now_s + ROCK_S
+        if self._way is Direction.OFF or now_s >= until_s or now_s >= self._from_s + GIVES_UP_S:
+            self.end()
+            return None
+        return Run(self._way, min(now_s + lease_s, until_s))
+
 
 WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
 """Faults that say more than the notice TURNS."""

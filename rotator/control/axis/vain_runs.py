@@ -1,14 +1,17 @@
 """Runs that do not turn their axis, from one short run to the next: how many, and whether that is enough to say so.
 
 Knows how far the axis is behind a motor so slow that it stands (`estimator`), and what the relays do. Judges nothing:
-`motion_watch` makes a fault of it, and of an axis without a calibration the person who presses makes what they see.
+`motion_watch` makes a fault of it, and of an axis without a calibration the person who presses makes what they see. Of
+an axis that counts, knows when its contact changed.
 """
 
 from __future__ import annotations
 
+from hw.ports import Axis
 from rotator.control.axis.estimator import START_S, Behind, Estimator
+from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
-from rotator.exchange.faults import FaultKind, Notice
+from rotator.exchange.faults import Fault, FaultKind, Notice
 
 STANDS_S, SHORT_S, LONGEST_S, SURE_SHARE = 1.2, 0.5, 4.0, 0.85
 """An axis stands after it was driven for the first time in all, and is behind by this share of what is sure: by what
@@ -84,3 +87,58 @@ class VainRuns:
     def forget(self, *, pressed: bool = False) -> None:
         """A person has looked. `pressed`: what an earlier run of the program knew of presses."""
         self.tries, self._pressed, self._seen.short = 0, pressed, Behind()
+
+
+SILENT_PERIODS = 3.0
+"""An axis does not turn if it was driven one way for this many periods in all without a change of its contact."""
+TURNS_AFTER_S = 0.15
+"""A motor needs this long in each run before it turns at its speed."""
+
+
+class SilentRuns:
+    """Whether an axis that counts turns at all when it is driven. A run that is too short to be judged by itself counts
+    together with those before it in the same direction, until the contact changes.
+
+    Give it every change of the relays (`note_relays`) and every reading (`see`), in order of time.
+    """
+
+    def __init__(self, axis: Axis) -> None:
+        self._axis = axis
+        self._changes: int | None = None
+        self._relays = RelayState()
+        self._turns_s = 0.0
+        """From when on the present run counts."""
+        self._silent_s = 0.0
+        """Total time of earlier runs without a pulse."""
+
+    def forget(self) -> None:
+        """A person watches the axis press against its stop."""
+        self._silent_s = 0.0
+
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
+        was, self._relays = self._relays, relays
+        if was.closed:
+            self._silent_s += max(0.0, relays.since_s - self._turns_s)
+        if relays.closed:
+            if relays.direction is not was.last:
+                self._silent_s = 0.0
+            self._turns_s = relays.since_s + TURNS_AFTER_S
+
+    def see(self, at_s: float, changes: int, period_s: float) -> Fault | None:
+        """`changes`: of the contact, up to now. `period_s`: from pulse to pulse, at the motor's speed.
+
+        Returns the fault that this shows, if any.
+        """
+        if changes != self._changes:
+            self._changes, self._silent_s = changes, 0.0
+            self._turns_s = max(self._turns_s, at_s)
+        if not self._relays.closed:
+            return None
+        silent_s = self._silent_s + max(0.0, at_s - self._turns_s)
+        if silent_s <= SILENT_PERIODS * period_s:
+            return None
+        self._silent_s, self._turns_s = 0.0, at_s
+        way = WAYS[self._axis, self._relays.direction]
+        measured = f"its motor ran {way} for {silent_s:.1f} s in all, and the contact did not change"
+        return Fault(FaultKind.NO_PULSES, self._axis, measured)

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from rotator.control.sky.known_path import KnownPath, Row, rows_around
-from rotator.control.sky.led import led
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.one_at_a_time import before_azimuth
 from rotator.control.sky.route import STEP_S, Speeds, Way, is_seen
@@ -21,6 +20,34 @@ from rotator.control.sky.turn_timing import Change, change_of
 from rotator.control.sky.turning import lifted_between_deg
 from rotator.control.sky.ways import Leg, Route, best_route
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly, Step
+
+
+def led(angles_deg: Sequence[float], travel_deg: float) -> list[float]:
+    """The same path where the motor can follow it: the angles of one axis at even moments.
+
+    Where it cannot, as azimuth near the zenith, an even turn with as much of it before as after.
+    """
+    led_deg, last = list(angles_deg), len(angles_deg) - 1
+    moment = 0
+    while moment < last:
+        if not _too_fast(angles_deg, moment, travel_deg):
+            moment += 1
+            continue
+        begin, end = moment, moment + 1
+        while end < last and _too_fast(angles_deg, end, travel_deg):
+            end += 1
+        while abs(angles_deg[end] - angles_deg[begin]) > travel_deg * (end - begin) and (begin or end < last):
+            begin, end = max(begin - 1, 0), min(end + 1, last)
+        by_deg = (angles_deg[end] - angles_deg[begin]) / (end - begin)
+        for at in range(begin, end + 1):
+            led_deg[at] = angles_deg[begin] + by_deg * (at - begin)
+        moment = end
+    return led_deg
+
+
+def _too_fast(angles_deg: Sequence[float], moment: int, travel_deg: float) -> bool:
+    return abs(angles_deg[moment + 1] - angles_deg[moment]) > travel_deg
+
 
 PRICE = 2.9
 """The price of a start in degrees squared times seconds, at a tolerance of 1°. It grows with the tolerance's cube."""

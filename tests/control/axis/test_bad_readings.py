@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from rotator.control.axis.bad_readings import HEALED_S, LOOKED_AT, NOTICED, TOO_MANY_BAD, BadReadings
+from rotator.control.axis.readings import HEALED_S, LOOKED_AT, NOTICED, TOO_MANY_BAD, BadReadings
 
 STEP_S = 0.05
 

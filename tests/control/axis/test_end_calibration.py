@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.end_calibration import EndCalibration
+from rotator.control.axis.calibration_table import Calibration, EndCalibration
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Missing
 

@@ -9,7 +9,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.silent_runs import SILENT_PERIODS, START_S, SilentRuns
+from rotator.control.axis.vain_runs import SILENT_PERIODS, TURNS_AFTER_S, SilentRuns
 from rotator.exchange.faults import Fault, FaultKind
 
 MINUS, OFF, PLUS = Direction
@@ -48,7 +48,7 @@ def contact() -> Contact:
 @pytest.mark.parametrize(("seconds", "found"), [(3.1, False), (3.3, True)])
 def test_three_periods_of_running_without_a_change_are_a_fault(contact: Contact, seconds: float, found: bool) -> None:
     """The motor needs 0.15 s before it turns at its speed."""
-    assert (SILENT_PERIODS, START_S) == (3.0, 0.15)
+    assert (SILENT_PERIODS, TURNS_AFTER_S) == (3.0, 0.15)
     fault = contact.run(PLUS, seconds)
     assert (fault is not None) is found
     if fault is not None:
