@@ -13,7 +13,7 @@ from babel.messages.catalog import Catalog, Message
 from babel.messages.pofile import read_po, write_po
 
 from docs.languages import page_texts, sentences
-from rotator.languages import DISPLAY, LANGUAGES
+from rotator.languages import DISPLAY, LANGUAGES, VIEWS
 
 FOLDER = sentences.ROOT / "rotator/languages"
 STATIC = sentences.ROOT / "rotator/web/static"
@@ -69,17 +69,19 @@ COLUMNS = re.compile(r"[ -\[\]-}]*")
 
 
 def texts() -> dict[tuple[str, str], str]:
-    """Each message with its context (`display`, or none), and where it stands."""
+    """Each message with its context (`display`, a view of the page, or none), and where it stands."""
     found: dict[tuple[str, str], str] = {}
     display = sentences.display_texts()
     for path in sorted(STATIC.glob("*.js")):
         if path.name != "stop.js":
             found |= {(text, ""): path.name for text in page_texts.messages(path.read_text(encoding="utf-8"))}
-    for room in sentences.ROOMS:
-        for path in sentences.files(room):
-            found |= {(text, ""): path.name for text in sentences.messages(path) if text not in display}
     found |= {(text, ""): "faults.py" for text in sentences.fault_texts()}
     found |= {(text, ""): "words.py" for text in SINGLE}
+    for view, rooms in sentences.ROOMS.items():
+        for path in [path for room in rooms for path in sentences.files(room)]:
+            here = {(text, view): path.name for text in sentences.messages(path) if text not in display}
+            found |= {each: name for each, name in here.items() if (each[0], "") not in found}
+    found |= {(text, "setup"): "settings" for text in sentences.meanings() if (text, "") not in found}
     return found | {(text, DISPLAY): f"display, {width} columns" for text, width in display.items()}
 
 
@@ -97,7 +99,11 @@ def written(language: str) -> None:
     now = Catalog(language, header_comment=f"# The {language} words of gs232-rotator: see CONTRIBUTING.md, Languages.")
     now.mime_headers[:] = []
     for (text, context), where in sorted(texts().items(), key=lambda each: (each[0][1], each[1], each[0][0])):
-        old = before.get(text, context or None)
+        old = before.get(text, context or None) or next(
+            # A text has moved from a view to all of them, or the other way.
+            (each for view in ("", *VIEWS) if context != DISPLAY and (each := before.get(text, view or None))),
+            None,
+        )
         now.add(
             text,
             old.string if old else "",
@@ -117,7 +123,7 @@ def mistakes(language: str) -> list[str]:
         message = catalogue.get(text, context or None)
         found += [
             f"{language}: {problem}: {text!r}"
-            for problem in _wrong(text, message, display.get(text, 0) if context else 0)
+            for problem in _wrong(text, message, display.get(text, 0) if context == DISPLAY else 0)
         ]
     return found
 

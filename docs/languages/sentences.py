@@ -10,21 +10,30 @@ import ast
 import itertools
 import re
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 
+from rotator.config.keys import forms
 from rotator.exchange.faults import OF_ANOTHER_SENSOR, FaultKind, Missing
 from rotator.exchange.spoken import short_sender
 from rotator.views import lcd
 
 ROOT = Path(__file__).resolve().parents[2]
-ROOMS = (
-    *("rotator/control", "rotator/exchange", "rotator/rotors", "rotator/tracking", "rotator/views/words.py"),
-    *("rotator/runtime/card_watch.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
-    *("rotator/web", "rotator/links/wire.py", "rotator/setup/questions.py"),
-    *(f"rotator/calibrating/{each}_guide.py" for each in ("axis", "table", "degrees", "stopwatch", "field")),
-    *(f"rotator/calibrating/{each}.py" for each in ("guide", "phrases", "question", "on_page", "readings")),
-    *(f"rotator/calibrating/{each}.py" for each in ("table_draft", "rig", "at_start")),
-)
+ROOMS = {
+    "": (
+        *("rotator/control", "rotator/exchange", "rotator/rotors", "rotator/tracking", "rotator/views/words.py"),
+        *("rotator/runtime/card_watch.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
+        *("rotator/web", "rotator/links/wire.py"),
+    ),
+    "setup": (
+        *("rotator/setup/question.py", "rotator/setup/questions.py"),
+        *(f"rotator/calibrating/{each}_guide.py" for each in ("axis", "table", "degrees", "stopwatch", "field")),
+        *(f"rotator/calibrating/{each}.py" for each in ("guide", "phrases", "question", "on_page", "readings")),
+        *(f"rotator/calibrating/{each}.py" for each in ("table_draft", "rig", "at_start")),
+    ),
+    "doctor": (),
+}
+"""By the context of their texts: the view of the page that alone shows them, if there is one."""
 _SENTENCE = re.compile(r"[a-z]{2,},? [a-z({\d]|[A-Za-z]{2,} [a-z]{2,}|^\{0\}[:,]? [a-z]{2,}|^[A-Z]{3,} [A-Z]{2,}")
 _NO_SENTENCE = re.compile(
     r"^[-abs]{3} [-abs]{3} | \+ Enter: |^(?:relays-checked|home|confirm) \{|^\{0\}\{1\}|/api/|max-age|stop = true"
@@ -105,6 +114,12 @@ def _texts(node: ast.expr) -> Iterator[str]:
     yield from ("".join(each) for each in chosen)
 
 
+def meanings() -> list[str]:
+    """What the settings say of each key and table of the file."""
+    told = [each["meaning"] for table in forms() for each in (table, *table["keys"])]
+    return list(dict.fromkeys(filter(None, told)))
+
+
 def fault_texts() -> list[str]:
     """What the tables of faults say, beside what stands in f-strings."""
     kinds = [text for kind in FaultKind for text in (kind.text, kind.advice)]
@@ -120,7 +135,10 @@ def display_texts() -> dict[str, int]:
         + [each.lcd for each in Missing]
     )
     beside += [
-        text for room in ROOMS for path in files(room) for text in _short(ast.parse(path.read_text(encoding="utf-8")))
+        text
+        for room in chain(*ROOMS.values())
+        for path in files(room)
+        for text in _short(ast.parse(path.read_text(encoding="utf-8")))
     ]
     senders = [short_sender(name) for name in ("keyboard", "console", "page", "panel", "calibrate", "track")]
     return {

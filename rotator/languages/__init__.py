@@ -22,6 +22,8 @@ Wanted = Literal["auto", "en", "de", "fr", "es", "it", "pt", "cs"]
 LANGUAGES: tuple[Language, ...] = get_args(Language)
 DISPLAY = "display"
 """The context of the texts for a display of sixteen columns."""
+VIEWS = "setup", "doctor"
+"""Contexts of the texts that one view of the page shows and no other: they are loaded with that view."""
 _PART = re.compile(r'^(msgctxt|msgid|msgstr) ((?:"(?:[^"\\]|\\.)*"\s*)+)', re.MULTILINE)
 _QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
@@ -60,12 +62,13 @@ def reader_language(wanted: Wanted, accepted: str) -> Language:
     return next((each for name in names for each in LANGUAGES if each == name), "en")
 
 
-def module(language: Language) -> bytes:
-    """The catalogue as the page imports it: the keys in one text, the translations in another, a line each.
+def module(language: Language, view: str = "") -> bytes:
+    """The catalogue, or what only this view of the page needs, as the page imports it: the keys in one text, the
+    translations in another, a line each.
 
     A message without values is looked for as it stands: five letters tell it from all others.
     """
-    told = catalogue(language)
+    told = catalogue(language, view)
     order = sorted(told, key=lambda text: ("{0}" in text, text))
     keys = json.dumps("\n".join(text if "{0}" in text else short(text) for text in order), ensure_ascii=False)
     words = json.dumps("\n".join(told[text] for text in order), ensure_ascii=False)

@@ -17,7 +17,7 @@ from aiohttp import web
 from rotator.exchange.orders import Jog, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
-from rotator.languages import Wanted, module, reader_language
+from rotator.languages import VIEWS, Wanted, module, reader_language
 from rotator.protocols.console import GoOn
 from rotator.protocols.methods import METHODS, Method, WrongValuesError
 from rotator.protocols.operating import Operating
@@ -198,11 +198,13 @@ class Api:
         return answer
 
     async def _words(self, request: web.Request) -> assets.Asset:
-        """The catalogue of the reader's language. The first of each is packed in a thread: a small Pi needs a while."""
+        """The words in the reader's language: all that many views need, or with `?of=` those of one view. The first of
+        each is packed in a thread: a small Pi needs a while."""
         language = reader_language(self._parts.language, request.headers.get("Accept-Language", ""))
-        if (asset := self._assets.get(f"/language.js {language}")) is None:
-            asset = await asyncio.to_thread(lambda: assets.packed(assets.SCRIPT, module(language)))
-            self._assets[f"/language.js {language}"] = asset
+        view = next((each for each in VIEWS if each == request.query.get("of")), "")
+        if (asset := self._assets.get(f"/language.js {language} {view}")) is None:
+            asset = await asyncio.to_thread(lambda: assets.packed(assets.SCRIPT, module(language, view)))
+            self._assets[f"/language.js {language} {view}"] = asset
         return asset
 
     # --- orders

@@ -14,6 +14,7 @@ from docs.languages import page_texts
 from hw.ports import Axis
 from rotator.exchange.faults import Fault, FaultKind
 from rotator.languages import LANGUAGES, catalogue
+from rotator.languages import VIEWS as WITH_WORDS
 from tests.page.conftest import Station
 
 STATIC = Path(catalogues.STATIC)
@@ -23,7 +24,11 @@ CUT = """async (templates) => {
     const { cut } = await import("/words.js");
     return templates.map((texts) => { const found = []; cut(texts, (text) => void found.push(text)); return found; });
 }"""
-SAID = 'async (texts) => { const { said } = await import("/words.js"); return texts.map(said); }'
+SAID = """async (texts) => {
+    const { said, wordsOf } = await import("/words.js");
+    await Promise.all(["setup", "doctor"].map(wordsOf));
+    return texts.map(said);
+}"""
 CUT_OFF = """() => [...document.querySelectorAll("button, h1, h2, h3, summary, nav a, label, .lamps li, dt")]
     .filter((each) => each.offsetParent && each.scrollWidth > each.clientWidth + 1)
     .filter((each) => getComputedStyle(each).display !== "inline")
@@ -51,7 +56,7 @@ def test_a_sentence_is_taken_for_no_other_one(
     page = visit(start(page=f'language = "{language}"'))
     assert page.evaluate("document.documentElement.lang") == language
     filled: dict[str, str] = {}
-    for text, told in catalogue(language).items():
+    for text, told in [pair for view in ("", *WITH_WORDS) for pair in catalogue(language, view).items()]:
         if re.search(r"[A-Za-z]{3}", re.sub(r"\{\d+\}", "", text)):
             filled[_with_values(text)] = _with_values(told, text)
     wrong = [

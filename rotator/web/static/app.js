@@ -17,7 +17,7 @@ import { Control, Front, Headline, Links, Mode, Notes, Strip } from "/panels.js"
 import { Setup } from "/setup.js";
 import { Sky } from "/sky.js";
 import { Timeline } from "/timeline.js";
-import { act, fitted, html, render, useEffect, useEvery, useState } from "/ui.js";
+import { act, fitted, html, render, useEffect, useEvery, useState, wordsOf } from "/ui.js";
 
 const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000, KEPT_MS = 60_000;
 let tell = () => {}, version;
@@ -102,11 +102,13 @@ function shownView() {
 }
 
 function Page() {
-  const [seen, setSeen] = useState({ now: null }), [view, setView] = useState(shownView), [said, say] = useState("");
+  const [seen, setSeen] = useState({ now: null }), [view, setView] = useState(null), [said, say] = useState("");
   useEffect(() => {
     tell = setSeen;
     live.tell();
-    addEventListener("hashchange", () => (setView(shownView()), say(""), scrollTo(0, 0)));
+    const show = () => wordsOf(shownView()).then(() => (setView(shownView()), say(""), scrollTo(0, 0)));
+    addEventListener("hashchange", show);
+    show();
   }, []);
   const { now, hello, fresh, old, locked } = seen, station = hello?.box;
   useEffect(() => {

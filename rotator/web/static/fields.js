@@ -1,6 +1,6 @@
 // One key of the file as a field, and what is typed there as a value. The loader of the box judges it, not this file.
 import { keypad, number } from "/numbers.js";
-import { html } from "/ui.js";
+import { html, said } from "/ui.js";
 
 /** How a value stands in its field. */
 export function shown(kind, value) {
@@ -31,8 +31,8 @@ function list(text) {
   }
 }
 
-/** A text with its keys and commands set apart. */
-export const plain = (text) => (text ?? "").split("`").map((part, at) => (at % 2 ? html`<code>${part}</code>` : part));
+/** A text in the reader's language, with its keys and commands set apart. */
+export const plain = (text) => said(text ?? "").split("`").map((part, at) => (at % 2 ? html`<code>${part}</code>` : part));
 
 function range({ kind, named, least, above, most, below, needed }) {
   if (named) return named;

@@ -1,7 +1,7 @@
 // All that the file can say: a form for each of its tables, what would change, and the new start of the box with it.
 import { command, post, read } from "/box.js";
 import { Field, plain, shown, typed } from "/fields.js";
-import { html, intoSight, Said, useEffect, useMemo, useRef, useState } from "/ui.js";
+import { html, intoSight, Said, said, useEffect, useMemo, useRef, useState } from "/ui.js";
 
 const AGAIN_MS = 700, PATIENCE_MS = 60_000;
 const later = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -189,7 +189,7 @@ export function Settings({ settings, now, only, keys }) {
   useEffect(() => void intoSight([...form.current?.querySelectorAll("p.mistake") ?? []].map((each) => each.closest(".field") ?? each)[0]), [mistakes.length && proposed]);
   if (!ready(settings)) return html`<${Missing} settings=${settings} />`;
   const wanted = words.trim().toLowerCase();
-  const find = (table, of) => keys ? keys.includes(of.key) : !wanted || `${name(table.path)}.${of.key} ${of.meaning}`.toLowerCase().includes(wanted);
+  const find = (table, of) => keys ? keys.includes(of.key) : !wanted || `${name(table.path)}.${of.key} ${said(of.meaning ?? "")}`.toLowerCase().includes(wanted);
   const wrong = (table) => mistakes.filter((each) => each.places.some((place) => same(place.filter((part) => typeof part === "string").slice(0, -1), table.path) || same(place, table.path))).length;
   const placed = (each) => each.places.some((place) => tables.some((table) => table.keys.some((of) => same([...table.path, of.key], place.filter((part) => typeof part === "string")))));
   const use = { within, file, draft, setDraft, mistakes, find };

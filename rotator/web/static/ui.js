@@ -2,10 +2,10 @@
 import { useEffect, useRef } from "/vendor/hooks.mjs";
 import { h, render } from "/vendor/preact.mjs";
 import htm from "/vendor/htm.mjs";
-import { inWords, said } from "/words.js";
+import { inWords, said, wordsOf } from "/words.js";
 
 export { useEffect, useMemo, useRef, useState } from "/vendor/hooks.mjs";
-export { render, said };
+export { render, said, wordsOf };
 
 const parsed = htm.bind(h);
 

@@ -1,17 +1,27 @@
 // The page in the reader's language. Templates are translated before they are parsed, once each: every text between two
 // tags is a message, with its values as {0}, {1}, and so are the attributes that a person hears or reads. Sentences that
 // the box sends are English: they are found by the message that they were made of. What has no translation stays English.
-import { keys, language, words } from "/language.js";
+import * as first from "/language.js";
 
 const FIRST = 0xe000, VALUE = /[\ue000-\uf8ff]/, VALUES = /[\ue000-\uf8ff]/g, WORD = /\p{L}{2}/u, AT_LINES = /^\s*\n\s*|\s*\n\s*$/g;
 const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE = /([\w-]+)=(?:"([^"]*)"|'([^']*)')/g, GIVEN = /([\w-]+)=([\ue000-\uf8ff])/g;
 const READ = ["aria-label", "title", "placeholder", "label", "alt"], VERBATIM = ["code", "pre", "svg", "style"], MOST_KEPT = 3000;
 const SEPARATORS = [/([.!?] +|[.!?]+$)/, /(; +)/, /(: +)/, /(, +)/, /( and )/, /( ?\(|\)$)/];
-const known = new Map(words[0] ? keys.map((key, at) => [key, words[at]]) : []), kept = new Map(), cuts = new WeakMap();
+const VIEWS = ["setup", "doctor"], PATIENCE_MS = 3000;
+const known = new Map(), kept = new Map(), cuts = new WeakMap();
+const learn = ({ keys, words }) => words[0] && keys.forEach((key, at) => known.set(key, words[at]));
+learn(first);
 
 /** Texts that were shown, and have no translation: for the tests. */
 export const missed = new Set();
-document.documentElement.lang = language;
+document.documentElement.lang = first.language;
+
+/** The words that only this view needs. Where they do not come, the view is shown without them: in English. */
+export async function wordsOf(view) {
+  if (!known.size || !VIEWS.includes(view)) return;
+  const come = import(`/language.js?of=${view}`).then((words) => (learn(words), kept.clear(), (index = null)), () => {});
+  await Promise.race([come, new Promise((done) => setTimeout(done, PATIENCE_MS))]);
+}
 
 /** A template in other words. `look` gives the translation of a message. Returns its texts, the values between them by
     their number, and which values are shown to a person. */
