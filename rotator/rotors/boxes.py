@@ -14,9 +14,7 @@ from hw.ports import AngleSensor, Axis
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.held_watch import turns_by_itself
 from rotator.control.axis.readings import Condition, Window
-from rotator.control.sky.offsets import Offsets
 from rotator.exchange.faults import Notice
-from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 
 ASSUMED = Notice("angle not certain until the rotor has had time for a full travel")
@@ -36,26 +34,16 @@ MOVED_READINGS, LATEST_READINGS = 20, 27
 shows other places in between."""
 
 
-class BoxRotor(PositionedRotor):
+class BoxRotor(PositionedRotor[DigipotDrive]):
     """Reports that an angle is only assumed, from the start until the box must have arrived. Also reports that a box
     turned the wrong way or too far, so that its supply was cut.
     """
 
-    def __init__(
-        self,
-        drive: DigipotDrive,
-        sensors: dict[Axis, AngleSensor],
-        shift: Offsets,
-        ends: BlockedDirections = no_switches,
-    ) -> None:
-        super().__init__(drive, sensors, shift, ends)
-        self._boxes = drive
-
     def condition(self, axis: Axis) -> Condition:
-        astray_deg, barred = self._boxes.astray_deg(axis), self._boxes.barred
+        astray_deg, barred = self._drive.astray_deg(axis), self._drive.barred
         measured = f"it turned {astray_deg:.1f}° away from the angle that was sent to its control box"
-        unseen_s = self._boxes.unseen_s()
-        assumed = None if self._boxes.position_known(axis) else ASSUMED
+        unseen_s = self._drive.unseen_s()
+        assumed = None if self._drive.position_known(axis) else ASSUMED
         if barred and not astray_deg:
             notice: Notice | None = UNFED
         else:
@@ -69,10 +57,10 @@ class BoxRotor(PositionedRotor):
         )
 
     def cut(self) -> bool:
-        return self._boxes.cut()
+        return self._drive.cut()
 
     def restore(self) -> None:
-        self._boxes.restore()
+        self._drive.restore()
 
 
 class FollowedBox:

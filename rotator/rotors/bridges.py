@@ -18,7 +18,7 @@ from rotator.control.commands import Acknowledge, Command, Errand, Place, Seek
 from rotator.control.sky.offsets import Offsets
 from rotator.exchange.faults import Fault, FaultKind
 from rotator.rotors.common import BlockedDirections, no_switches
-from rotator.rotors.counted import CountedAxis
+from rotator.rotors.counted import CountedAxis, CountsKept
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.positioned import PositionedRotor
 
@@ -36,7 +36,7 @@ ADVICE = {
 }
 
 
-class BridgeRotor(PositionedRotor):
+class BridgeRotor(PositionedRotor[BridgeDrive], CountsKept[BridgeDrive]):
     """`axes`: the count of each axis. `master`: an output takes the bridges' supply, or disables them."""
 
     def __init__(
@@ -51,7 +51,6 @@ class BridgeRotor(PositionedRotor):
         master: bool = False,
     ) -> None:
         super().__init__(drive, sensors, shift, ends)
-        self._bridges = drive
         self._axes = axes
         self._counts_writer = counts_writer
         self._master = master
@@ -61,15 +60,15 @@ class BridgeRotor(PositionedRotor):
         condition = self._axes[axis].condition(self._ends(axis))
         lost = condition.lost
         if lost and not self._was_lost[axis]:
-            self._bridges.fail(axis, Amiss.LOST, lost)
+            self._drive.fail(axis, Amiss.LOST, lost)
         self._was_lost[axis] = bool(lost)
-        if failure := self._bridges.failure:
+        if failure := self._drive.failure:
             return replace(condition, fault=Fault(FaultKind.MOTOR_DRIVER, axis, failure, passing=True))
-        if (found := self._bridges.amiss(axis)) is None:
+        if (found := self._drive.amiss(axis)) is None:
             return condition
         amiss, seen = found
         # A lost count of an axis that finds its end is homed: the fault's own words say that.
-        advice = "" if amiss is Amiss.LOST and self._bridges.finds_end(axis) else ADVICE.get(amiss, "")
+        advice = "" if amiss is Amiss.LOST and self._drive.finds_end(axis) else ADVICE.get(amiss, "")
         fault = Fault(KINDS[amiss], axis, seen, sensor="encoder", advice=advice)
         if amiss is Amiss.TURNING:
             fault = unstoppable(fault, master=self._master)
@@ -77,31 +76,21 @@ class BridgeRotor(PositionedRotor):
 
     def obey(self, axis: Axis, command: Command) -> Direction:
         if isinstance(command, Seek):
-            self._bridges.seek(axis, command.until_s)
+            self._drive.seek(axis, command.until_s)
             return Direction.OFF
         return super().obey(axis, command)
 
     def run(self, errand: Errand) -> None:
         match errand:
             case Acknowledge(axis):
-                self._bridges.acknowledge(axis)
+                self._drive.acknowledge(axis)
             case Place(axis, angle_deg):
                 self._axes[axis].place(angle_deg - self._shift.deg(axis))
             case _:
                 super().run(errand)
 
     def cut(self) -> bool:
-        return self._bridges.cut()
+        return self._drive.cut()
 
     def restore(self) -> None:
-        self._bridges.restore()
-
-    def coasts(self) -> bool:
-        return self._counts_writer is not None and any(axis.coasts for axis in self._axes.values())
-
-    def close(self) -> None:
-        try:
-            super().close()
-        finally:
-            if self._counts_writer:
-                self._counts_writer.close()
+        self._drive.restore()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from typing import Generic, TypeVar
 
 from hw.ports import AngleSensor, Axis, Direction
 from hw.safety.guard import Expiring, Guard
@@ -15,6 +16,7 @@ BlockedDirections = Callable[[Axis], frozenset[Direction]]
 """For an axis: the directions that an open limit switch blocks now."""
 
 NOTHING_TO_REPORT = Condition()
+DriveT = TypeVar("DriveT", bound=Expiring)
 
 
 def no_switches(_axis: Axis) -> frozenset[Direction]:
@@ -44,7 +46,7 @@ class PlainRotor:
         return False
 
 
-class GuardedRotor(PlainRotor):
+class GuardedRotor(PlainRotor, Generic[DriveT]):
     """A drive whose commands expire, and the guard that ends them: a thread, or a call by the simulated clock.
 
     `operator_must`: for the log: the operator's immediate action if the drive cannot be switched off.
@@ -52,7 +54,7 @@ class GuardedRotor(PlainRotor):
 
     def __init__(
         self,
-        drive: Expiring,
+        drive: DriveT,
         sensors: Mapping[Axis, AngleSensor],
         ends: BlockedDirections = no_switches,
         *,

@@ -32,7 +32,7 @@ LEFT = Notice(
 SWITCH_OFF = "SWITCH IT OFF!"
 
 
-class ControllerRotor(PositionedRotor):
+class ControllerRotor(PositionedRotor[ControllerDrive]):
     """`sleep`: waits, in seconds, for the first answer."""
 
     def __init__(
@@ -45,16 +45,15 @@ class ControllerRotor(PositionedRotor):
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         super().__init__(drive, sensors, shift, ends)
-        self._controllers = drive
         self._sleep = sleep
 
     def condition(self, axis: Axis) -> Condition:
-        by_hand, left = self._controllers.by_hand(axis)
+        by_hand, left = self._drive.by_hand(axis)
         return Condition(
             fault=self._fault(axis),
             notice=BY_HAND if by_hand else LEFT if left else None,
             settling=by_hand or left,
-            missed=self._controllers.unit(axis).missed,
+            missed=self._drive.unit(axis).missed,
             ends=self._ends(axis),
         )
 
@@ -62,35 +61,35 @@ class ControllerRotor(PositionedRotor):
         match errand:
             case Stop(axes):
                 for axis in self.sensors.keys() & axes:
-                    self._controllers.halt(axis)
+                    self._drive.halt(axis)
             case LetGo():
                 for axis in self.sensors:
-                    self._controllers.halt(axis)
+                    self._drive.halt(axis)
 
     def start(self) -> None:
         super().start()
-        self._controllers.start()
+        self._drive.start()
         self._wait()
 
     def begin(self, add_alarm: AddAlarm) -> None:
         super().begin(add_alarm)
-        self._controllers.start()
+        self._drive.start()
         self._wait()
 
     def close(self) -> None:
         try:
             super().close()
         finally:
-            self._controllers.finish()
+            self._drive.finish()
 
     def _wait(self) -> None:
         for _ in range(round(FIRST_ANSWER_S / LOOK_S)):
-            if self._controllers.answered:
+            if self._drive.answered:
                 return
             self._sleep(LOOK_S)
 
     def _fault(self, axis: Axis) -> Fault | None:
-        match self._controllers.trouble(axis):
+        match self._drive.trouble(axis):
             case Trouble.SILENT, str() as text:
                 return Fault(FaultKind.CONTROLLER_SILENT, axis, text, passing=True, advice=SILENT)
             case Trouble.GARBLED, str() as text:

@@ -21,11 +21,10 @@ from rotator.control.axis.relay_faults import unstoppable
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.rotors.common import BlockedDirections, no_switches
+from rotator.rotors.common import BlockedDirections, DriveT, GuardedRotor, no_switches
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor
 from rotator.store import counts
-from rotator.store.hanging import HANGS, Hanging
 
 log = logging.getLogger(__name__)
 
@@ -65,7 +64,6 @@ class CountedAxis:
         self._moved = False
         """Whether the axis has moved since its last angle at rest was reported."""
         self._reported_lost = False
-        self._hanging: Hanging[int] = Hanging()
 
     def begin(self, kept: counts.Place) -> None:
         """Start with the count that the last run stored."""
@@ -149,7 +147,7 @@ class CountedAxis:
         self._scale += 1
 
     def _fault(self) -> Fault | None:
-        write_failure = self._write_failure(self._counts_writer) if self._counts_writer else ""
+        write_failure = self._counts_writer.trouble(self._axis, self._clock()) if self._counts_writer else ""
         if write_failure:
             return Fault(FaultKind.COUNT_NOT_KEPT, self._axis, f"it does not move: {write_failure}", passing=True)
         if self._counter.turning:
@@ -158,12 +156,6 @@ class CountedAxis:
         if self._counter.quiet:
             return Fault(FaultKind.NO_PULSES, self._axis, "its motor ran for three periods, the contact did not change")
         return None
-
-    def _write_failure(self, counts_writer: CountsWriter) -> str:
-        """Why the file does not mark the axis as moving; empty: it does, or will soon."""
-        if self._hanging.look(counts_writer.awaited(self._axis), self._clock()):
-            return f"its file is not written: {HANGS}"
-        return counts_writer.trouble(self._axis)
 
     def _keep(self, angle_deg: float) -> None:
         if self._counts_writer is None or self._doubt:
@@ -180,7 +172,24 @@ class CountedAxis:
             self._counts_writer.rests(self._axis, angle_deg, self._counter.travelled_deg)
 
 
-class CountedRotor(RelayRotor):
+class CountsKept(GuardedRotor[DriveT]):
+    """A rotor with axes that count, and the file in which their counts are kept."""
+
+    _axes: Mapping[Axis, CountedAxis]
+    _counts_writer: CountsWriter | None
+
+    def coasts(self) -> bool:
+        return self._counts_writer is not None and any(axis.coasts for axis in self._axes.values())
+
+    def close(self) -> None:
+        try:
+            super().close()
+        finally:
+            if self._counts_writer:
+                self._counts_writer.close()
+
+
+class CountedRotor(CountsKept[RelayBank], RelayRotor):
     """`axes`: the axes that count pulses or time. Another axis has only its sensor in `sensors`."""
 
     def __init__(
@@ -220,13 +229,3 @@ class CountedRotor(RelayRotor):
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset(axis for axis, each in self._axes.items() if each.closed)
-
-    def coasts(self) -> bool:
-        return self._counts_writer is not None and any(axis.coasts for axis in self._axes.values())
-
-    def close(self) -> None:
-        try:
-            super().close()
-        finally:
-            if self._counts_writer:
-                self._counts_writer.close()

@@ -13,6 +13,7 @@ from queue import SimpleQueue
 
 from hw.ports import Axis
 from rotator.store.counts import CountsFile, Place
+from rotator.store.hanging import HANGS, Hanging
 
 COUNTS_THREAD = "counts"
 """The writing thread's name."""
@@ -75,6 +76,7 @@ class CountsWriter:
         rest followed: the file may already say that the axis stands."""
         self._lock = threading.RLock()
         """Reentrant, because `at_once` runs its jobs within a call."""
+        self._hanging: dict[Axis, Hanging[int]] = {axis: Hanging() for axis in Axis}
         self._closed = False
 
     def load(self) -> dict[Axis, Place]:
@@ -92,13 +94,12 @@ class CountsWriter:
                 self._later(lambda: self._mark(axis, request))
             return self._marks[axis] is Mark.SET
 
-    def trouble(self, axis: Axis) -> str:
-        """Why the motor may not start; empty when it may start now or soon."""
+    def trouble(self, axis: Axis, now_s: float) -> str:
+        """Why the motor may not start; empty when it may start now or soon. Ask again and again."""
+        awaited = [self._requests[axis]] if self._marks[axis] is Mark.ASKED else []
+        if self._hanging[axis].look(awaited, now_s):
+            return f"its file is not written: {HANGS}"
         return self._file.trouble if self._marks[axis] is Mark.REFUSED else ""
-
-    def awaited(self, axis: Axis) -> list[int]:
-        """The number of the mark that is still being written, if there is one."""
-        return [self._requests[axis]] if self._marks[axis] is Mark.ASKED else []
 
     def rests(self, axis: Axis, angle_deg: float, travelled_deg: float = 0.0) -> None:
         """The axis stands at this angle on the rotor's own scale, and its count is right."""

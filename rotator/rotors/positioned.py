@@ -7,7 +7,7 @@ know the kind of drive.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from hw.ports import AngleSensor, Axis, Direction, PositionedDrive
 from hw.safety.guard import Expiring
@@ -30,23 +30,25 @@ class GuardedDrive(PositionedDrive, Expiring, Protocol):
     """A positioned drive with commands that a guard ends when they expire."""
 
 
-class PositionedRotor(GuardedRotor):
+MotorsT = TypeVar("MotorsT", bound=GuardedDrive)
+
+
+class PositionedRotor(GuardedRotor[MotorsT]):
     """`shift`: the offset of each axis, from the rotor's own scale to the controller's angles."""
 
     def __init__(
         self,
-        drive: GuardedDrive,
+        drive: MotorsT,
         sensors: Mapping[Axis, AngleSensor],
         shift: Offsets,
         ends: BlockedDirections = no_switches,
     ) -> None:
         super().__init__(drive, sensors, ends)
-        self._motors = drive
         self._shift = shift
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        return steered(self._motors, self._shift, axis, command)
+        return steered(self._drive, self._shift, axis, command)
 
     def run(self, errand: Errand) -> None:
         if isinstance(errand, LetGo):
-            self._motors.release()
+            self._drive.release()

@@ -18,7 +18,7 @@ from rotator.exchange.faults import Fault, FaultKind
 from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 
 
-class RelayRotor(GuardedRotor):
+class RelayRotor(GuardedRotor[RelayBank]):
     """Two motors on a bank of relays. `sensors`: the angle sensor of each axis. `speeds`: the output for the speed of
     each motor that has one.
     """

@@ -7,28 +7,20 @@ reports nothing.
 from __future__ import annotations
 
 from hw.drives.servo import ServoDrive
-from hw.ports import AngleSensor, Axis
+from hw.ports import Axis
 from rotator.control.axis.readings import Condition
-from rotator.control.sky.offsets import Offsets
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 
 
-class ServoRotor(PositionedRotor):
+class ServoRotor(PositionedRotor[ServoDrive]):
     """An axis is settling until its servo has had time for the jump of the first pulse."""
 
-    def __init__(
-        self, drive: ServoDrive, sensors: dict[Axis, AngleSensor], shift: Offsets, ends: BlockedDirections = no_switches
-    ) -> None:
-        super().__init__(drive, sensors, shift, ends)
-        self._servos = drive
-
     def condition(self, axis: Axis) -> Condition:
-        text = self._servos.faults().get(axis)
+        text = self._drive.faults().get(axis)
         return Condition(
             fault=Fault(FaultKind.SERVO_BOARD, axis, text) if text else None,
-            settling=not self._servos.position_known(axis),
+            settling=not self._drive.position_known(axis),
             ends=self._ends(axis),
         )
 
@@ -36,4 +28,4 @@ class ServoRotor(PositionedRotor):
         try:
             super().close()
         finally:
-            self._servos.finish()
+            self._drive.finish()

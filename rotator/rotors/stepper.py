@@ -22,7 +22,6 @@ from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.positioned import PositionedRotor
 from rotator.store.counts import Place as Kept
 from rotator.store.counts import Standing
-from rotator.store.hanging import HANGS, Hanging
 
 KINDS = {
     Trouble.STEPS_LOST: FaultKind.STEPS_LOST,
@@ -34,7 +33,7 @@ NOT_YET = float("-inf")
 SPI_WIRES = "Check the chip's two supplies, and its wires to the Pi's SPI"
 
 
-class StepperRotor(PositionedRotor):
+class StepperRotor(PositionedRotor[StepperDrive]):
     """`kept`: where each axis stood at the end of the last run. `writer`: keeps that; None: they stand there now.
 
     `homes`: the axes that have an end to find. `clock`: seconds.
@@ -53,7 +52,6 @@ class StepperRotor(PositionedRotor):
         writer: CountsWriter | None = None,
     ) -> None:
         super().__init__(drive, sensors, shift, ends)
-        self._steppers = drive
         self._homes = homes
         self._clock = clock
         self._writer = writer
@@ -62,7 +60,6 @@ class StepperRotor(PositionedRotor):
         self._told: dict[Axis, tuple[float | None, int, str]] = dict.fromkeys(Axis, (None, 0, ""))
         """What was last written of each axis: where it rests, its scale, why its place is lost."""
         self._told_s = dict.fromkeys(Axis, NOT_YET)
-        self._hanging: dict[Axis, Hanging[int]] = {axis: Hanging() for axis in Axis}
         for axis, place in kept.items():
             match place.standing:
                 case Standing.KNOWN:
@@ -74,26 +71,26 @@ class StepperRotor(PositionedRotor):
 
     def condition(self, axis: Axis) -> Condition:
         self._keep(axis)
-        trouble = self._steppers.trouble(axis)
+        trouble = self._drive.trouble(axis)
         return Condition(
             fault=self._fault(axis),
             latched=trouble is not None,
-            notice=HOT if self._steppers.hot(axis) else None,
-            lost=self._steppers.lost(axis),
-            scale=self._steppers.scale(axis),
+            notice=HOT if self._drive.hot(axis) else None,
+            lost=self._drive.lost(axis),
+            scale=self._drive.scale(axis),
             ends=self._ends(axis),
         )
 
     def obey(self, axis: Axis, command: Command) -> Direction:
         with self._lock:
             match command:
-                case Steer(angle_deg, 0.0) if self._steppers.stands_at(axis, angle_deg - self._shift.deg(axis)):
-                    self._steppers.hold(axis)
+                case Steer(angle_deg, 0.0) if self._drive.stands_at(axis, angle_deg - self._shift.deg(axis)):
+                    self._drive.hold(axis)
                 case Steer() | Seek() if self._writer and not self._writer.may_start(axis):
                     pass  # the next command asks again
                 case Seek(until_s):
                     self._told_s[axis] = NOT_YET
-                    self._steppers.seek(axis, until_s)
+                    self._drive.seek(axis, until_s)
                 case Steer():
                     self._told_s[axis] = NOT_YET
                     return super().obey(axis, command)
@@ -103,15 +100,15 @@ class StepperRotor(PositionedRotor):
 
     def run(self, errand: Errand) -> None:
         match errand:
-            case Acknowledge(axis) if self._steppers.trouble(axis):
-                self._steppers.acknowledge(axis)
+            case Acknowledge(axis) if self._drive.trouble(axis):
+                self._drive.acknowledge(axis)
             case Place(axis, angle_deg):
-                self._steppers.confirm(axis, angle_deg - self._shift.deg(axis))
+                self._drive.confirm(axis, angle_deg - self._shift.deg(axis))
             case _:
                 super().run(errand)
 
     def coasts(self) -> bool:
-        return self._writer is not None and any(map(self._steppers.runs, self.sensors))
+        return self._writer is not None and any(map(self._drive.runs, self.sensors))
 
     def close(self) -> None:
         try:
@@ -123,21 +120,20 @@ class StepperRotor(PositionedRotor):
                 self._writer.close()
 
     def _fault(self, axis: Axis) -> Fault | None:
-        if trouble := self._steppers.trouble(axis):
+        if trouble := self._drive.trouble(axis):
             kind, text = trouble
             lost = FaultKind.COUNT_LOST if axis in self._homes else FaultKind.POSITION_UNKNOWN
             return Fault(KINDS.get(kind, lost), axis, text)
-        if silent := self._steppers.silent(axis):
+        if silent := self._drive.silent(axis):
             return Fault(FaultKind.CONTROLLER_SILENT, axis, silent, passing=True, advice=SPI_WIRES)
         if self._writer is None:
             return None
-        hangs = self._hanging[axis].look(self._writer.awaited(axis), self._clock())
-        why = f"its file is not written: {HANGS}" if hangs else self._writer.trouble(axis)
+        why = self._writer.trouble(axis, self._clock())
         return Fault(FaultKind.COUNT_NOT_KEPT, axis, f"it does not move: {why}", passing=True) if why else None
 
     def _keep(self, axis: Axis) -> None:
         """In the file: where it rests, and that its place is lost."""
-        steppers, writer = self._steppers, self._writer
+        steppers, writer = self._drive, self._writer
         if writer is None or steppers.silent(axis):
             return
         with self._lock:

@@ -65,7 +65,7 @@ def test_a_motor_waits_until_the_file_says_that_it_moves(path: Path, disk: SlowD
     assert standing(path) is Standing.LOST, "moving, when it is read again"
     assert counts_writer.may_start(AZ)
     assert standing(path, EL) is Standing.KNOWN
-    assert counts_writer.trouble(AZ) == ""
+    assert counts_writer.trouble(AZ, 0.0) == ""
 
 
 def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> None:
@@ -97,15 +97,15 @@ def test_a_file_that_cannot_be_written_refuses_and_says_why(path: Path, disk: Sl
     path.unlink()
     path.mkdir()
     assert not counts_writer.may_start(AZ)
-    assert counts_writer.trouble(AZ) == "", "nothing is known yet"
+    assert counts_writer.trouble(AZ, 0.0) == "", "nothing is known yet"
     disk.work()
-    assert "directory" in counts_writer.trouble(AZ)
-    assert counts_writer.trouble(EL) == "", "the other axis was not ordered"
+    assert "directory" in counts_writer.trouble(AZ, 0.0)
+    assert counts_writer.trouble(EL, 0.0) == "", "the other axis was not ordered"
     assert not counts_writer.may_start(AZ)
     path.rmdir()
     disk.work()
     assert counts_writer.may_start(AZ)
-    assert counts_writer.trouble(AZ) == ""
+    assert counts_writer.trouble(AZ, 0.0) == ""
 
 
 def test_in_real_time_a_thread_of_its_own_writes_and_ends(path: Path) -> None:

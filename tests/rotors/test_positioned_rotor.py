@@ -27,11 +27,11 @@ def drive() -> Journal:
 
 
 @pytest.fixture
-def rotor(drive: Journal) -> PositionedRotor:
+def rotor(drive: Journal) -> PositionedRotor[Journal]:
     return PositionedRotor(drive, SENSORS, SHIFT, lambda axis: frozenset({Direction.PLUS} if axis is EL else ()))
 
 
-def test_a_safe_state_that_fails_is_an_error(rotor: PositionedRotor, drive: Journal) -> None:
+def test_a_safe_state_that_fails_is_an_error(rotor: PositionedRotor[Journal], drive: Journal) -> None:
     drive.broken = True
     with pytest.raises(HardwareError, match="does not answer"):
         rotor.off()

@@ -1,14 +1,13 @@
 """The builders of the kinds of rotor, one file each: the real drivers, and the simulated rotor for them.
 
-Part of the composition root. One function here names the files. The tables and properties of each kind are in
-`rotator.config.kinds`.
+Part of the composition root. One function here finds the files, each of which is named as its kind. The tables and
+properties of each kind are in `rotator.config.kinds`.
 """
-
-# ruff: noqa: PLC0415 - a box loads the kind that it has
 
 from __future__ import annotations
 
-from typing import Protocol
+from importlib import import_module
+from typing import Protocol, cast
 
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import OutputLines
@@ -33,40 +32,4 @@ class Builder(Protocol):
 
 def builder(kind: KindName) -> Builder:
     """The file of that kind. Loaded only now: the drivers of all the others would double the time of a start."""
-    match kind:
-        case "relay-pot":
-            from rotator.assembly.kinds import relay_pot
-
-            return relay_pot
-        case "relay-pulse":
-            from rotator.assembly.kinds import relay_pulse
-
-            return relay_pulse
-        case "relay-timed":
-            from rotator.assembly.kinds import relay_timed
-
-            return relay_timed
-        case "moteus":
-            from rotator.assembly.kinds import moteus
-
-            return moteus
-        case "servo":
-            from rotator.assembly.kinds import servo
-
-            return servo
-        case "digipot":
-            from rotator.assembly.kinds import digipot
-
-            return digipot
-        case "h-bridge":
-            from rotator.assembly.kinds import h_bridge
-
-            return h_bridge
-        case "controller":
-            from rotator.assembly.kinds import controller
-
-            return controller
-        case "stepper":
-            from rotator.assembly.kinds import stepper
-
-            return stepper
+    return cast(Builder, import_module(f"{__name__}.{kind.replace('-', '_')}"))
