@@ -19,7 +19,7 @@ from rotator.store import fetches
 from rotator.store.fetches import FetchesFile
 
 if TYPE_CHECKING:
-    from rotator.fetching.thread import FetchThread
+    from rotator.fetching.fetcher import FetchThread
     from rotator.links.elements import ElementsServer
 
 LONGEST_S = 180.0
@@ -34,8 +34,7 @@ def build_fetching(config: Config, clock_is_known: Callable[[], bool], tell: Cal
     if not config.sky.fetch:
         return None
     from rotator.fetching.download import Answer, Question, ask  # noqa: PLC0415 - slow to load, and seldom needed
-    from rotator.fetching.fetcher import Fetcher  # noqa: PLC0415
-    from rotator.fetching.thread import FetchThread  # noqa: PLC0415
+    from rotator.fetching.fetcher import Fetcher, FetchThread  # noqa: PLC0415
 
     process = OwnProcess(LONGEST_S, once=True)
 

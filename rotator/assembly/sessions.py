@@ -63,8 +63,7 @@ def session_maker(
             level = {"easycomm1": Level.I, "easycomm2": Level.II, "easycomm3": Level.III}[link.protocol]
             return lambda box: EasycommSession(box, level, pstrotator=link.easycomm_answer == "pstrotator")
         case "rot1prog" | "rot2prog" | "md01":
-            from rotator.protocols.spid import Model
-            from rotator.protocols.spid_session import SpidSession
+            from rotator.protocols.spid import Model, SpidSession
 
             if link.protocol == "rot1prog":
                 return lambda box: SpidSession(box, Model.ROT1PROG)

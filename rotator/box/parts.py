@@ -54,7 +54,7 @@ from rotator.web.pairing import Pairings
 
 if TYPE_CHECKING:
     from rotator.calibrating.on_page import PageCalibration
-    from rotator.fetching.thread import FetchThread
+    from rotator.fetching.fetcher import FetchThread
     from rotator.links.elements import ElementsServer
     from rotator.mqtt.thread import MqttThread
     from rotator.panel.thread import PanelThread

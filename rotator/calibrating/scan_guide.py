@@ -22,8 +22,8 @@ from rotator.calibrating.cross import (
     within_reach,
 )
 from rotator.calibrating.entries import Entry, Press, StopNow
+from rotator.calibrating.facts import SkyFacts
 from rotator.calibrating.guide import Steps
-from rotator.calibrating.sky_facts import SkyFacts
 from rotator.calibrating.sky_guide import KEYS, SkyGuide
 from rotator.calibrating.sky_table import miss_text
 from rotator.calibrating.strength import Strength

@@ -11,9 +11,9 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from rotator.calibrating.entries import Entry, Press, StopNow, Word
+from rotator.calibrating.facts import SkyFacts
 from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, SteeringGuide, Steps, refused
 from rotator.calibrating.results import MountFound
-from rotator.calibrating.sky_facts import SkyFacts
 from rotator.calibrating.sky_table import Residuals, found_text, miss_text, pictures, table, terms_text
 from rotator.control.sky.model_fit import NoFit, SkyPoint, fitted
 from rotator.control.sky.pointing_model import PERFECT

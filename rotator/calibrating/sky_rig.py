@@ -14,10 +14,10 @@ from rotator.assembly.receiver import simulated_receiver, simulated_rigctld
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import Entry
+from rotator.calibrating.facts import sky_facts
 from rotator.calibrating.receiver import BadAddress, Receiver, RigctldReceiver, address
 from rotator.calibrating.rig import Rig, control_loop
 from rotator.calibrating.scan_guide import ScanGuide
-from rotator.calibrating.sky_facts import sky_facts
 from rotator.calibrating.sky_guide import Sighting, SkyGuide
 from rotator.calibrating.sky_table import miss_text
 from rotator.config.model import Config

@@ -14,10 +14,9 @@ from pydantic import Field, model_validator
 from hw.ports import AngleSource, Axis
 from rotator.config.adc import Adc
 from rotator.config.axes import AxisTable, Azimuth, BrakeTable, Elevation, SpeedTable
+from rotator.config.axis_faults import endless_faults, felt_faults, in_turns
 from rotator.config.chips import I2CChip, SpiUse, chips_twice, pins_twice, spi_lines
 from rotator.config.devices import Lcd, Relays
-from rotator.config.endless import endless_faults, in_turns
-from rotator.config.felt import felt_faults
 from rotator.config.forbidden import Place, forbidden_faults
 from rotator.config.kinds import Rotor, with_usual
 from rotator.config.kinds.controller import Controller, ControllerKind
@@ -33,8 +32,7 @@ from rotator.config.kinds.stepper import Stepper, StepperKind
 from rotator.config.links import Link, follows_itself, needs_station, places_twice
 from rotator.config.mount import MountTable
 from rotator.config.mqtt import MqttTable
-from rotator.config.notify import NotifyTable
-from rotator.config.page import PageTable
+from rotator.config.page import NotifyTable, PageTable
 from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.places import STATE
 from rotator.config.sensors import Angle, CompassTable

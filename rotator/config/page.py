@@ -1,6 +1,7 @@
-"""The `[page]` table of the configuration file: where the box's page is served, and to whom.
+"""The `[page]` table of the configuration file: where the box's page is served, and to whom; and `[notify]`: to which
+address the page posts notices, and which.
 
-Knows its keys. Knows no socket, and not what the page shows.
+Knows their keys. Knows no socket, and not what the page shows.
 """
 
 from __future__ import annotations
@@ -11,7 +12,8 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from rotator.config.links import Address, Networks
-from rotator.config.table import Table
+from rotator.config.sky import is_address
+from rotator.config.table import SECRET, Table
 from rotator.languages import Wanted
 
 
@@ -35,3 +37,21 @@ class PageTable(Table):
     """More names of this computer in browsers' addresses, beside its own, `NAME.local` and its numbers."""
     language: Wanted = "auto"
     """Of the page and the display: "auto" is what each browser asks for, and English on the display."""
+
+
+def _an_address(text: str) -> str:
+    scheme, _, rest = text.partition("://")
+    if not (text.isascii() and text.isprintable() and is_address(f"{scheme}://{rest.rpartition('@')[2]}")):
+        raise ValueError('must be an address such as "https://ntfy.sh/TOPIC"')
+    return text
+
+
+class NotifyTable(Table):
+    url: Annotated[str, AfterValidator(_an_address)] | None = Field(None, max_length=500, json_schema_extra=SECRET)
+    """Where notices are posted, such as "https://ntfy.sh/TOPIC", or "https://USER:PASSWORD@HOST/TOPIC"."""
+    events: list[Literal["pass", "fault", "stop"]] = Field(["pass", "fault", "stop"], min_length=1)
+    """Of what: before a pass of the plan or of what is tracked; a fault; a stop that latches."""
+    before_min: float = Field(5.0, gt=0, le=120)
+    """So many minutes before its rise a pass is told."""
+    form: Literal["text", "json"] = "text"
+    """What is posted: plain text with a title in the header, as ntfy takes it, or a JSON object."""

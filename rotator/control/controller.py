@@ -16,10 +16,9 @@ from rotator.control.axis.build import build_axis
 from rotator.control.axis.readings import Reading
 from rotator.control.boom import with_boom
 from rotator.control.commands import Acknowledge, Command, Errand, Place, Run, Turns
-from rotator.control.cycles import Cycles
+from rotator.control.cycles import Cycles, PassStarts
 from rotator.control.fence import Fence
 from rotator.control.movements import Movements
-from rotator.control.pass_starts import PassStarts
 from rotator.control.refused import Refused
 from rotator.control.rights import deed_of
 from rotator.control.senders import aims_of

@@ -23,7 +23,6 @@ from rotator.doctor import (
     controllers,
     kept,
     links,
-    moteus,
     outputs,
     running,
     switches,
@@ -86,7 +85,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     ),
     Check(
         "moteus", "library, adapter; both controllers: supply, fault, known angle \\*",
-        moteus.controllers, on_chips=True, alone=True, concerns=lambda config: config.rotor.type == "moteus",
+        controllers.moteus, on_chips=True, alone=True, concerns=lambda config: config.rotor.type == "moteus",
     ),
     Check(
         "controller", "its port, and the angle that it tells \\*", controllers.ready_made, alone=True,

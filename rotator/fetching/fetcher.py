@@ -1,18 +1,21 @@
 """Fetches elements from the addresses in the configuration, each when it is due, and keeps the result of each request.
 
 Knows the record of earlier requests, which is written before a request is sent: a box that dies in the middle, or
-cannot write, does not ask twice. Does not know threads. Moments are arguments.
+cannot write, does not ask twice. Moments are arguments, but for the thread at the end, which knows real time.
 """
 
 from __future__ import annotations
 
 import logging
+import threading
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from rotator.fetching.download import Answer, Question
 from rotator.fetching.manners import EVERY_S, LEAST_S, REFUSED_S, Moment, concerned, concerns_host, left_s, wait_s
+from rotator.runtime.own_process import OwnProcess
 from rotator.store.fetches import Asked, FetchesFile, file_of
 
 log = logging.getLogger(__name__)
@@ -157,3 +160,36 @@ def _after(asked: Asked, answer: Answer) -> Asked:
         etag=answer.etag,
         modified=answer.modified,
     )
+
+
+LOOK_S = 5.0
+
+
+class FetchThread:
+    """Checks again and again whether an address is due, and waits for its answer. No other part waits for it.
+
+    `process`: in which the fetcher downloads, and which it can end. `tell` is called when a file is new.
+    """
+
+    def __init__(self, fetcher: Fetcher, process: OwnProcess, tell: Callable[[], None]) -> None:
+        self._fetcher = fetcher
+        self._process = process
+        self._tell = tell
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="fetching", daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Returns when the thread has ended. A present download is given up."""
+        self._stopping.set()
+        self._process.close()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    def _run(self) -> None:
+        while not self._stopping.is_set():
+            if self._fetcher.step(Moment(time.time(), time.monotonic())):
+                self._tell()
+            self._stopping.wait(LOOK_S)

@@ -1,7 +1,7 @@
-"""The frames of the SPID controllers Rot1Prog, Rot2Prog and MD-01: the command table and the codec.
+"""The SPID controllers Rot1Prog, Rot2Prog and MD-01: the frames, and what each makes the box do.
 
-A client sends 13 bytes; a Rot1Prog answers with 5, the other models with 12. Knows these bytes, and how to find a frame
-among other bytes. Does not know what the box does with a frame: `spid_session` does. Sources: LA6YKA's description of
+A client sends 13 bytes; a Rot1Prog answers with 5, the other models with 12. Knows the command table, its codec, and
+how to find a frame among other bytes. Does not know how the box carries out an order. Sources: LA6YKA's description of
 the protocol, and what Hamlib 4.5 and 4.6 send to models 901, 902 and 903 (see docs/reference/wire.md).
 """
 
@@ -10,7 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum, IntFlag
 
+from hw.ports import Axis, Direction
+from rotator.exchange.orders import Jog, Stop
+from rotator.protocols.aiming import aim
 from rotator.protocols.rounding import whole
+from rotator.protocols.session import Box, Talk
 
 START, END = 0x57, 0x20
 LENGTH = 13
@@ -177,3 +181,51 @@ def _digits(angle_deg: float) -> list[int]:
     """The four digits of an angle in tenths of a degree, with the offset."""
     tenths = whole((angle_deg + OFFSET_DEG) * 10)
     return [int(digit) for digit in f"{min(max(tenths, 0), _MOST_TENTHS):04d}"]
+
+
+PULSES = {Model.ROT1PROG: 1, Model.ROT2PROG: 2, Model.MD01: 10}
+"""Pulses a degree unless configured: Rot2Prog counts half degrees, MD-01 tenths."""
+
+_TURNS = {
+    Turn.LEFT: Jog(Axis.AZIMUTH, Direction.MINUS),
+    Turn.RIGHT: Jog(Axis.AZIMUTH, Direction.PLUS),
+    Turn.UP: Jog(Axis.ELEVATION, Direction.PLUS),
+    Turn.DOWN: Jog(Axis.ELEVATION, Direction.MINUS),
+}
+
+
+class SpidSession(Talk):
+    """A SPID controller on one connection. The protocol has no reply for a refusal: the box is silent and stands."""
+
+    def __init__(self, box: Box, model: Model, pulses: int | None = None) -> None:
+        self._box = box
+        self._model = model
+        self._pulses = pulses or PULSES[model]
+        self._frames = FrameReader(model, self._pulses)
+
+    def receive(self, data: bytes) -> list[bytes]:
+        replies = [self._answer(frame) for frame in self._frames.feed(data)]
+        return [reply for reply in replies if reply]
+
+    def _answer(self, frame: Frame) -> bytes:
+        match frame:
+            case Frame(Command.STOP):
+                self._box.order(Stop())
+            case Frame(Command.SET, azimuth_deg, elevation_deg):
+                if azimuth_deg is not None:
+                    self._box.order(aim(azimuth_deg, elevation_deg))
+            case Frame(Command.MOVE, turn=Turn() as turn):
+                for part, jog in _TURNS.items():
+                    if part in turn:
+                        self._box.order(jog)
+        return self._position() if answers(self._model, frame.command) else b""
+
+    def _position(self) -> bytes:
+        """No answer while the position is not known: the client then reports a controller without power."""
+        status = self._box.status()
+        azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
+        if azimuth_deg is None:
+            return b""
+        if self._model is Model.ROT1PROG:
+            return azimuth_reply(azimuth_deg)
+        return b"" if elevation_deg is None else position_reply(azimuth_deg, elevation_deg, self._pulses)

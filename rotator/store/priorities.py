@@ -6,7 +6,7 @@ Does not know the use of a priority.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -15,6 +15,9 @@ from rotator.store.state import Content, Section, State
 
 MOST, LONGEST_NAME = 100, 80
 MOST_PRIORITY = 1000.0
+"""Beyond it all numbers shrink by one factor, because only their ratios count."""
+EQUAL_WITHIN = 1e-4
+"""Two numbers this close are equal: after the shrinking and the six decimals they could be one number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,3 +72,19 @@ class Priorities:
             name: Changed(priority, written[name]) for name, priority in priorities.items() if priority != written[name]
         }
         return self._state.keep(PRIORITIES, self._changed)
+
+
+def ranked(priorities: Sequence[float]) -> list[float]:
+    """The priority of each place in a list that a person has ordered, from the first on. `priorities`: of all targets,
+    in any order.
+
+    The numbers keep their places in the list and only the names move, so the scale stays: 10, 5, 1 stay 10, 5, 1. Of
+    two equal numbers the upper one becomes larger, so that the order counts; two that the file's six decimals would
+    hardly tell apart are equal.
+    """
+    places = sorted(priorities)
+    for index in range(1, len(places)):
+        if places[index] < places[index - 1] + EQUAL_WITHIN:
+            places[index] = places[index - 1] + 1.0
+    shrink = MOST_PRIORITY / max(MOST_PRIORITY, *places) if places else 1.0
+    return [round(each * shrink, 6) for each in reversed(places)]

@@ -22,9 +22,8 @@ from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
 from rotator.protocols.methods import WrongValuesError
-from rotator.store.priorities import Priorities
+from rotator.store.priorities import Priorities, ranked
 from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.ranking import ranked
 from rotator.web.computed import Computed, of_the_program
 from rotator.web.entrance import RefusedError, computed
 from rotator.web.route import COMPUTING, PAIRED, Route, get, post

@@ -16,7 +16,7 @@ from urllib.parse import urlsplit
 
 import aiohttp
 
-from rotator.config.notify import NotifyTable
+from rotator.config.page import NotifyTable
 from rotator.fetching.download import ANSWER_S, no_answer
 from rotator.views.news import Notice
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.pass_starts import PAUSE_S, PassStarts
+from rotator.control.cycles import PASS_PAUSE_S, PassStarts
 
 OFF, CW, CCW = Direction.OFF, Direction.PLUS, Direction.MINUS
 
@@ -42,7 +42,7 @@ def test_the_count_stays_readable_until_the_next_pass(starts: PassStarts) -> Non
 
 
 def test_orders_that_keep_coming_are_one_pass_also_of_a_slow_target(starts: PassStarts) -> None:
-    for at_s in range(0, 3600, int(PAUSE_S) - 1):
+    for at_s in range(0, 3600, int(PASS_PAUSE_S) - 1):
         starts.ordered(float(at_s))
         run(starts, float(at_s), CW, OFF)
     assert starts.of(Axis.AZIMUTH) == 31

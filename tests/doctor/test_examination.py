@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from rotator.cli.doctor import as_object, verdict
 from rotator.config.model import Config
 from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION, Examination, examine
-from rotator.views.examination import as_object, verdict
 from tests.doctor.conftest import STATION, Pi
 
 NAMES = ["configuration", *(check.name for check in OF_THE_MACHINE), *(check.name for check in OF_THE_STATION)]

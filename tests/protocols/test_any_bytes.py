@@ -26,8 +26,7 @@ from rotator.protocols.prosistel import ProsistelSession
 from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Session
-from rotator.protocols.spid import Model
-from rotator.protocols.spid_session import SpidSession
+from rotator.protocols.spid import Model, SpidSession
 from tests.protocols import readings_gs232, readings_makers, readings_rotctld
 from tests.protocols.fed import assert_not_kept, assert_well_formed
 from tests.protocols.readings_gs232 import ENDS, f1efw_motions, gs232_motions

@@ -13,8 +13,7 @@ from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.n1mm import N1mmSession
 from rotator.protocols.one_axis import OneAxis
 from rotator.protocols.pstrotatoraz import PstRotatorAzSession
-from rotator.protocols.spid import Model
-from rotator.protocols.spid_session import SpidSession
+from rotator.protocols.spid import Model, SpidSession
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

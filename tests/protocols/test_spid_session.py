@@ -11,8 +11,7 @@ from hw.ports import Axis, Direction
 from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Order, Stop
 from rotator.protocols.session import Session
-from rotator.protocols.spid import Command, Frame, Model, Turn, encode
-from rotator.protocols.spid_session import SpidSession
+from rotator.protocols.spid import Command, Frame, Model, SpidSession, Turn, encode
 from tests.tables import every_row
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from itertools import pairwise
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from rotator.tracking.ranking import MOST, ranked
+from rotator.store.priorities import MOST_PRIORITY, ranked
 from tests.tables import every_row
 
 
@@ -28,9 +28,9 @@ def test_the_numbers_stay_and_equal_ones_part(written: list[float], expected: li
 
 
 @example([0.001, 0.0010001, *[1000.0] * 98])
-@given(st.lists(st.floats(0.001, MOST), min_size=1, max_size=100))
+@given(st.lists(st.floats(0.001, MOST_PRIORITY), min_size=1, max_size=100))
 def test_each_place_counts_more_than_the_next_within_the_bounds_of_the_file(written: list[float]) -> None:
     places = ranked(written)
     assert all(upper > lower for upper, lower in pairwise(places))
     assert places[-1] > 0
-    assert places[0] <= MOST
+    assert places[0] <= MOST_PRIORITY

@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis
-from rotator.config.notify import NotifyTable
+from rotator.config.page import NotifyTable
 from rotator.exchange.faults import Fault, FaultKind
 from rotator.exchange.status import AxisStatus, Flown, Status
 from rotator.views.news import News, Notice

@@ -15,8 +15,7 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.prosistel import ProsistelSession
 from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.reference.gs232 import AZIMUTH_DEG, ELEVATION_DEG, Example, shown, table
-from rotator.protocols.spid import Command, Frame, Model, Turn
-from rotator.protocols.spid_session import PULSES, SpidSession
+from rotator.protocols.spid import PULSES, Command, Frame, Model, SpidSession, Turn
 
 _EASYCOMM_EXAMPLES = {"VL": "VL4900", "VR": "VR4900", "VU": "VU4900", "VD": "VD4900"}
 """Commands that take numbers; all others have none."""
