@@ -12,16 +12,18 @@ from collections.abc import Callable
 
 from hw.ports import Compass, HardwareError
 from rotator.calibrating.bearing import CompassReading
+from rotator.runtime.own_thread import OwnThread
 from rotator.store.compass import KeptCompass
 
 READ_EVERY_S = 0.1
 JOIN_S = 3.0
 
 
-class CompassReader:
+class CompassReader(OwnThread):
     """Call `read` now and then, or `start` a thread that does. `latest` may be read from any thread."""
 
     def __init__(self, compass: Compass, clock: Callable[[], float], file: KeptCompass | None) -> None:
+        super().__init__("compass", JOIN_S)
         self.latest: CompassReading | None = None
         self.messages: deque[str] = deque()
         """For the operator: whether the corrections were restored or saved."""
@@ -30,8 +32,6 @@ class CompassReader:
         self._file = file
         self._restored = False
         self._save_wanted = threading.Event()
-        self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="compass", daemon=True)
 
     def request_save(self) -> None:
         """Save the corrections before the next reading. The compass gives no angles for a moment meanwhile."""
@@ -53,14 +53,6 @@ class CompassReader:
             return
         tilt_deg = max(abs(attitude.roll_deg), abs(attitude.pitch_deg))
         self.latest = CompassReading(self._clock(), attitude.heading_deg, tilt_deg, calibration)
-
-    def start(self) -> None:
-        self._thread.start()
-
-    def stop(self) -> None:
-        self._stopping.set()
-        if self._thread.is_alive():
-            self._thread.join(timeout=JOIN_S)
 
     def _restore(self) -> None:
         """Give the compass the corrections that it had before the last power-off."""

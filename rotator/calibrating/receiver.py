@@ -6,11 +6,11 @@ Knows the socket, and has a thread of its own, because a receiver may take secon
 from __future__ import annotations
 
 import socket
-import threading
 from collections.abc import Callable
 from typing import Protocol
 
 from rotator.calibrating.strength import ASKS_VFO, PORT, NoStrength, Strength, question, strength_db, wants_vfo
+from rotator.runtime.own_thread import OwnThread
 
 ASK_EVERY_S = 0.1
 AGAIN_S = 1.0
@@ -45,30 +45,24 @@ def address(text: str) -> tuple[str, int]:
     return host, int(port)
 
 
-class RigctldReceiver:
+class RigctldReceiver(OwnThread):
     """`latest` may be called from any thread."""
 
     def __init__(
         self, place: tuple[str, int], clock: Callable[[], float], close: Callable[[], None] = lambda: None
     ) -> None:
         """`close`: called when it is stopped."""
+        super().__init__("receiver", JOIN_S)
         self._close = close
         self._place = place
         self._clock = clock
         self._latest: Strength | None = None
-        self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="receiver", daemon=True)
 
     def latest(self) -> Strength | None:
         return self._latest
 
-    def start(self) -> None:
-        self._thread.start()
-
     def stop(self) -> None:
-        self._stopping.set()
-        if self._thread.is_alive():
-            self._thread.join(timeout=JOIN_S)
+        super().stop()
         self._close()
 
     def _run(self) -> None:

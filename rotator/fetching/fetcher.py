@@ -7,7 +7,6 @@ cannot write, does not ask twice. Moments are arguments, but for the thread at t
 from __future__ import annotations
 
 import logging
-import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -16,6 +15,7 @@ from pathlib import Path
 from rotator.fetching.download import Answer, Question
 from rotator.fetching.manners import EVERY_S, LEAST_S, REFUSED_S, Moment, concerned, concerns_host, left_s, wait_s
 from rotator.runtime.own_process import OwnProcess
+from rotator.runtime.own_thread import OwnThread
 from rotator.store.fetches import Asked, FetchesFile, file_of
 
 log = logging.getLogger(__name__)
@@ -165,28 +165,23 @@ def _after(asked: Asked, answer: Answer) -> Asked:
 LOOK_S = 5.0
 
 
-class FetchThread:
+class FetchThread(OwnThread):
     """Checks again and again whether an address is due, and waits for its answer. No other part waits for it.
 
     `process`: in which the fetcher downloads, and which it can end. `tell` is called when a file is new.
     """
 
     def __init__(self, fetcher: Fetcher, process: OwnProcess, tell: Callable[[], None]) -> None:
+        super().__init__("fetching")
         self._fetcher = fetcher
         self._process = process
         self._tell = tell
-        self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="fetching", daemon=True)
-
-    def start(self) -> None:
-        self._thread.start()
 
     def stop(self) -> None:
         """Returns when the thread has ended. A present download is given up."""
         self._stopping.set()
         self._process.close()
-        if self._thread.is_alive():
-            self._thread.join()
+        super().stop()
 
     def _run(self) -> None:
         while not self._stopping.is_set():

@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import logging
 import ssl
-import threading
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -19,6 +18,7 @@ from rotator.config.mqtt import MqttTable
 from rotator.links.wire import Wire, reason
 from rotator.mqtt.desk import LONGEST, Desk
 from rotator.mqtt.topics import OFFLINE, ONLINE, Topics, discovery
+from rotator.runtime.own_thread import OwnThread
 
 if TYPE_CHECKING:
     from rotator.mqtt.bounded import BoundedClient, TooLong
@@ -38,7 +38,7 @@ NO_LIBRARY = (
 )
 
 
-class MqttThread:
+class MqttThread(OwnThread):
     """`table` names a broker. `status` gives the status to send, as an object. `desk` carries out messages. `left`:
     called when the connection has ended."""
 
@@ -51,6 +51,7 @@ class MqttThread:
         status: Callable[[], Any],
         left: Callable[[], None],
     ) -> None:
+        super().__init__(MQTT_THREAD, JOIN_S)
         self._table = table
         self._host, self._port = address(table.broker or "")
         self._topics = topics
@@ -58,8 +59,6 @@ class MqttThread:
         self._status = status
         self._left = left
         self.wire = Wire(MQTT_THREAD, MQTT_THREAD, f"{self._host}:{self._port}")
-        self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name=MQTT_THREAD, daemon=True)
         self._let_in = False
         self._refused = ""
         self._trouble = ""
@@ -71,13 +70,11 @@ class MqttThread:
 
     def start(self) -> None:
         self.wire.state = "connecting"
-        self._thread.start()
+        super().start()
 
     def stop(self) -> None:
         """Returns when the thread has ended, or hangs."""
-        self._stopping.set()
-        if self._thread.is_alive():
-            self._thread.join(JOIN_S)
+        super().stop()
         self.wire.state = "closed"
 
     def _run(self) -> None:

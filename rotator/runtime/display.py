@@ -7,10 +7,10 @@ mean nor how the display works. It has a thread of its own because a slow or mis
 from __future__ import annotations
 
 import logging
-import threading
 from collections.abc import Callable, Sequence
 
 from hw.ports import CharacterDisplay, HardwareError
+from rotator.runtime.own_thread import OwnThread
 
 log = logging.getLogger(__name__)
 
@@ -21,11 +21,12 @@ REFRESH_S = 0.2
 RESET_EVERY_S = 300.0
 """Seconds between two resets. Sparks of motor relays garble these displays, the program cannot read them back, and a
 reset repairs them."""
+JOIN_S = 2.0
 RETRY_S = 5.0
 """The pause, in seconds, before a display that does not answer is tried again."""
 
 
-class DisplayThread:
+class DisplayThread(OwnThread):
     """`rows` gives the text of each row at a time of `clock`, in seconds."""
 
     def __init__(
@@ -37,23 +38,13 @@ class DisplayThread:
         retry_s: float = RETRY_S,
     ) -> None:
         """`retry_s`: the real pause before the next try with a display that does not answer."""
+        super().__init__(DISPLAY_THREAD, JOIN_S)
         self._display = display
         self._rows = rows
         self._clock = clock
         self._retry_s = retry_s
-        self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._keep, name=DISPLAY_THREAD, daemon=True)
 
-    def start(self) -> None:
-        self._thread.start()
-
-    def stop(self) -> None:
-        """End the thread. May be called twice, and without `start`."""
-        self._stopping.set()
-        if self._thread.is_alive():
-            self._thread.join(timeout=2.0)
-
-    def _keep(self) -> None:
+    def _run(self) -> None:
         answered = True
         while not self._stopping.is_set():
             try:

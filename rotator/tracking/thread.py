@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import logging
 import math
-import threading
 import time
 from collections.abc import Callable, Sequence
 
 from rotator.orbits.elements import Elements
+from rotator.runtime.own_thread import OwnThread
 from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
 from rotator.tracking.file_reader import FileReader
@@ -31,7 +31,7 @@ AGAIN_S = 2.0
 """Seconds of pause after a bug of the program."""
 
 
-class TrackingThread:
+class TrackingThread(OwnThread):
     def __init__(
         self,
         tracker: Tracker,
@@ -47,6 +47,7 @@ class TrackingThread:
         steady_s: Callable[[], float] = time.monotonic,
     ) -> None:
         """`steady_s`: the clock of the control loop."""
+        super().__init__("tracking")
         self.tracker = tracker
         self.sky = sky
         self.priorities = priorities
@@ -57,25 +58,19 @@ class TrackingThread:
         self._reader = reader
         self._clock = clock
         self._steady_s = steady_s
-        self._stopping = threading.Event()
         self._new_files = False
         self._refreshed_s = -math.inf
         self._told: tuple[str, ...] = ()
         """The faults of files of elements that are already in the log."""
         self._failure = ""
         """The latest bug of the program, as text."""
-        self._thread = threading.Thread(target=self._run, name="tracking", daemon=True)
-
-    def start(self) -> None:
-        self._thread.start()
 
     def stop(self) -> None:
         """Returns when the thread has ended. A plan or a file in work is given up."""
         self._stopping.set()
         self._planner.close()
         self._reader.close()
-        if self._thread.is_alive():  # it never started if the start of the box failed
-            self._thread.join()
+        super().stop()
 
     def clock_is_known(self) -> bool:
         """From any thread: whether this computer's clock is right, as the system or a person says."""
