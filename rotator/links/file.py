@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import threading
 from collections.abc import Callable
-from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from rotator.links.wire import Conversation, Wire
 from rotator.protocols.session import Session
+from rotator.runtime.own_thread import aside
 
 log = logging.getLogger(__name__)
 
@@ -40,33 +40,19 @@ class FileLink:
         """Nothing to do: `run` waits for the file."""
 
     async def run(self) -> None:
-        loop = asyncio.get_running_loop()
         conversation = Conversation(self._session(), self.wire, lambda _reply: None)
-        leaving = threading.Event()
-
-        def found(content: bytes | str) -> None:
-            if leaving.is_set():
-                return
-            self._tell("" if isinstance(content, bytes) else content)
-            if isinstance(content, bytes):
-                conversation.received(content)
-
-        def watch() -> None:
-            """Runs in a separate thread, because a read from a lost network share may never return."""
-            before: bytes | str | None = None
-            while not leaving.is_set():
-                now = _content(self._path)
+        before: bytes | str | None = None
+        try:
+            while True:
+                # In a thread of its own, because a read from a lost network share may never return.
+                now = await aside(partial(_content, self._path), self.wire.name)
                 if now != before:
                     before = now
-                    with suppress(RuntimeError):  # the event loop has ended meanwhile
-                        loop.call_soon_threadsafe(found, now)
-                leaving.wait(self._look_every_s)
-
-        threading.Thread(target=watch, name=self.wire.name, daemon=True).start()
-        try:
-            await asyncio.Event().wait()
+                    self._tell("" if isinstance(now, bytes) else now)
+                    if isinstance(now, bytes):
+                        conversation.received(now)
+                await asyncio.sleep(self._look_every_s)
         finally:
-            leaving.set()
             conversation.close()
             self.wire.state = "closed"
 

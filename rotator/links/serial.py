@@ -20,6 +20,7 @@ import serial
 from rotator.links.fd import converse, writer
 from rotator.links.wire import Conversation, Wire
 from rotator.protocols.session import Session
+from rotator.runtime.own_thread import aside
 
 log = logging.getLogger(__name__)
 
@@ -76,30 +77,9 @@ class SerialLink:
 
     async def _opened(self) -> Any:
         """Open it in a thread of its own: a URL whose machine is off takes seconds, and holds up no end of the box."""
-        loop = asyncio.get_running_loop()
-        opening: asyncio.Future[Any] = loop.create_future()
-
-        def finish(port: Any, fault: Exception | None) -> None:
-            if opening.done():  # the link has ended meanwhile
-                _close(port)
-            elif fault:
-                opening.set_exception(fault)
-            else:
-                opening.set_result(port)
-
-        def work() -> None:
-            port, failure = None, None
-            try:
-                port = self._opens(self._port, self._baud, timeout=0)
-            except Exception as fault:
-                failure = fault
-            try:
-                loop.call_soon_threadsafe(finish, port, failure)
-            except RuntimeError:  # the event loop has ended meanwhile
-                _close(port)
-
-        threading.Thread(target=work, name=self.wire.name, daemon=True).start()
-        return await opening
+        return await aside(
+            lambda: self._opens(self._port, self._baud, timeout=0), self.wire.name, lambda port: port.close()
+        )
 
     async def _converse(self, port: Any) -> str:
         """Carry bytes until the port fails. Returns the reason."""
@@ -170,11 +150,6 @@ def _why(fault: Exception) -> str:
             return str(fault)
         case _:
             return f"what stands behind :// is wrong: {fault}"
-
-
-def _close(port: Any) -> None:
-    if port is not None:
-        port.close()
 
 
 def _write(port: Any, data: bytes) -> None:

@@ -9,8 +9,6 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
-from collections.abc import Callable
-from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -18,6 +16,7 @@ from hw.ports import AngleSource, Axis
 from rotator.config.load import ConfigError
 from rotator.control.sky.offsets import Offsets
 from rotator.runtime.loop import ControlLoop
+from rotator.runtime.own_thread import aside
 from rotator.store.counts import CountsFile
 from rotator.store.hanging import within
 from rotator.store.learnt import KeptMotors, Motors
@@ -129,32 +128,3 @@ class Autosave:
     def _motors(self) -> dict[Axis, Motors]:
         learnt = {axis: self._loop.status.axis(axis).learnt for axis in Axis}
         return {axis: motors for axis, motors in learnt.items() if motors is not None}
-
-
-async def aside(job: Callable[[], object], name: str) -> None:
-    """Wait for a job in a thread of its own. Raises what the job raises. Cancelled, it leaves the job to its thread.
-
-    `asyncio.to_thread` has threads that the interpreter waits for, also for one that a hanging card holds.
-    """
-    events = asyncio.get_running_loop()
-    done: asyncio.Future[None] = events.create_future()
-
-    def ended(failure: Exception | None) -> None:
-        if done.done():
-            return
-        if failure is None:
-            done.set_result(None)
-        else:
-            done.set_exception(failure)
-
-    def run() -> None:
-        failure: Exception | None = None
-        try:
-            job()
-        except Exception as fault:
-            failure = fault
-        with suppress(RuntimeError):  # the event loop has closed
-            events.call_soon_threadsafe(ended, failure)
-
-    threading.Thread(target=run, name=name, daemon=True).start()
-    await done

@@ -116,7 +116,7 @@ def build_page(
         from rotator.web.flown import FlownPictures  # noqa: PLC0415
         from rotator.web.help_api import help_groups  # noqa: PLC0415
         from rotator.web.overhead import OverheadApi, overhead  # noqa: PLC0415
-        from rotator.web.plan import Passes, Plan, command  # noqa: PLC0415
+        from rotator.web.plan import Plan, coming_passes, command  # noqa: PLC0415
         from rotator.web.setting_up import SettingUpApi  # noqa: PLC0415
         from rotator.web.settings import SettingsApi  # noqa: PLC0415
         from rotator.web.webhook import Webhook  # noqa: PLC0415
@@ -125,9 +125,9 @@ def build_page(
         site = build_site(config.station)
         place = (site.latitude_deg, site.longitude_deg) if site else None
         passes, up, days = (
-            Passes(command(path) if path and site else None, time.monotonic, tracking.known_elements),
+            coming_passes(command(path) if path and site else None, time.monotonic, tracking.known_elements),
             overhead(path if site else None, time.monotonic, tracking.known_elements),
-            Passes(plan_command(path) if path and site else None, time.monotonic, tracking.known_elements),
+            coming_passes(plan_command(path) if path and site else None, time.monotonic, tracking.known_elements),
         )
 
         def plan_again() -> None:

@@ -16,9 +16,8 @@ from typing import Any
 
 from aiohttp import web
 
-from rotator.web.computed import of_the_program
+from rotator.web.computed import Computed, of_the_program
 from rotator.web.entrance import RefusedError
-from rotator.web.plan import Passes
 from rotator.web.route import Route, get, refusals
 from rotator.web.schema import ICS
 
@@ -59,7 +58,7 @@ def plan_command(path: Path) -> tuple[str, ...]:
     return of_the_program("sky", "plan", "--json", "--hours", str(HOURS), "--config", str(path))
 
 
-def calendar_route(plan: Passes) -> Route:
+def calendar_route(plan: Computed) -> Route:
     """`plan`: by `plan_command`."""
 
     async def serve(_request: web.Request) -> web.Response:

@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from rotator.config.station import NO_PLACE
 from rotator.exchange.foreign import json_of
 
 ERROR_KEPT_S, TAKES_S = 10.0, 120.0
@@ -23,23 +24,26 @@ def of_the_program(*words: str) -> tuple[str, ...]:
 
 
 class Computed:
-    """`words`: the command. `named`: what it prints, for an error. `shaped` makes the answer from the command's JSON.
+    """`words`: the command; None: the configuration has no place of the station. `named`: what it prints, for an error.
 
-    `good`: the exit codes with which the JSON is complete. `clock` gives seconds.
+    `shaped` makes the answer from the command's JSON. `good`: the exit codes with which the JSON is complete. `clock`
+    gives seconds. `source` gives what the answer is computed from: the same object until that changes.
     """
 
     def __init__(
         self,
-        words: Sequence[str],
+        words: Sequence[str] | None,
         clock: Callable[[], float],
+        source: Callable[[], object] = lambda: None,
         *,
         named: str,
         kept_s: float,
         shaped: Callable[[Any], dict[str, Any]],
         good: Sequence[int] = (0,),
     ) -> None:
-        self._words = words
+        self._words = words or ()
         self._clock = clock
+        self._source, self._computed_for = source, source()
         self._named = named
         self._kept_s = kept_s
         self._shaped = shaped
@@ -50,6 +54,11 @@ class Computed:
 
     def answer(self) -> dict[str, Any] | None:
         """The answer, or `error` with the reason. None: it is being computed; ask again."""
+        if not self._words:
+            return {"error": NO_PLACE}
+        if (now := self._source()) is not self._computed_for:
+            self._computed_for = now
+            self.forget()
         if self._clock() < self._until_s:
             return self._kept
         if self._computing is None or self._computing.done():

@@ -16,9 +16,8 @@ from typing_extensions import TypedDict
 
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.unreached import Area, unreached
-from rotator.web.computed import of_the_program
+from rotator.web.computed import Computed, of_the_program
 from rotator.web.entrance import computed
-from rotator.web.plan import Passes
 from rotator.web.route import COMPUTING, Route, get
 from rotator.web.schema import Pair, the
 
@@ -53,14 +52,14 @@ class _Sky(TypedDict):
 _Areas = TypedDict("_Areas", {"areas": Annotated[list[Area], the("azimuth from and to, elevation from and to")]})
 
 
-def overhead(path: Path | None, clock: Callable[[], float], elements: Callable[[], object]) -> Passes:
+def overhead(path: Path | None, clock: Callable[[], float], elements: Callable[[], object]) -> Computed:
     """`path`: of the configuration; None: it has no file, or no place."""
     words = of_the_program("sky", "up", "--json", "--config", str(path)) if path else None
-    return Passes(words, clock, elements, named="the sky", kept_s=KEPT_S, shaped=dict)
+    return Computed(words, clock, elements, named="the sky", kept_s=KEPT_S, shaped=dict)
 
 
 class OverheadApi:
-    def __init__(self, sky: Passes, mount: Mount) -> None:
+    def __init__(self, sky: Computed, mount: Mount) -> None:
         self._sky = sky
         self._mount = mount
         self._areas: asyncio.Task[list[Area]] | None = None

@@ -17,7 +17,6 @@ from aiohttp import web
 from typing_extensions import TypedDict
 
 from rotator.config.sky import FollowTable
-from rotator.config.station import NO_PLACE
 from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
@@ -69,42 +68,13 @@ def command(path: Path) -> tuple[str, ...]:
     return of_the_program("sky", "passes", "--json", "--hours", str(HOURS), "--config", str(path))
 
 
-class Passes(Computed):
-    """`words`: the command; None: the configuration has no place of the station. `clock` gives seconds.
-
-    `elements` gives the elements of the satellites: the same object until one changes. The rest as `Computed`.
-    """
-
-    def __init__(
-        self,
-        words: Sequence[str] | None,
-        clock: Callable[[], float],
-        elements: Callable[[], object] = lambda: None,
-        *,
-        named: str = "the passes",
-        kept_s: float = KEPT_S,
-        shaped: Callable[[Any], dict[str, Any]] = lambda rows: {"passes": rows[:MOST]},
-    ) -> None:
-        super().__init__(words or (), clock, named=named, kept_s=kept_s, shaped=shaped)
-        self._elements = elements
-        self._computed_for = elements()
-
-    def answer(self) -> dict[str, Any] | None:
-        """The answer, or `error` with the reason. None: it is being computed; ask again."""
-        if not self._words:
-            return {"error": NO_PLACE}
-        elements = self._elements()
-        if elements is not self._computed_for:
-            # Fetched, or copied into the folder.
-            self._computed_for = elements
-            self.forget()
-        return super().answer()
-
-    @property
-    def known(self) -> list[dict[str, Any]] | None:
-        """The last computed passes. If they are old, new ones are being computed. None: none yet."""
-        latest = self.latest()
-        return None if latest is None else latest.get("passes", [])
+def coming_passes(
+    words: Sequence[str] | None, clock: Callable[[], float], elements: Callable[[], object] = lambda: None
+) -> Computed:
+    """`elements` gives those of the satellites: another object once they are fetched, or copied into the folder."""
+    return Computed(
+        words, clock, elements, named="the passes", kept_s=KEPT_S, shaped=lambda rows: {"passes": rows[:MOST]}
+    )
 
 
 Fields = dict[str, Any]
@@ -157,7 +127,7 @@ class Plan:
         follow: Sequence[FollowTable],
         sky: KnownSky,
         priorities: Priorities,
-        passes: Passes,
+        passes: Computed,
         *,
         changed: Callable[[], None],
         utc: Callable[[], float],
@@ -248,10 +218,10 @@ class Plan:
         """The next pass of the plan, or the next good one without a plan, with its path; {}: none; None: ask again."""
         if not self._sky.elements and not self._follow:
             return {}
-        passes = self._passes.known
-        if passes is None:
+        latest = self._passes.latest()
+        if latest is None:
             return None
-        found = next_pass(passes, self._utc())
+        found = next_pass(latest.get("passes", []), self._utc())
         if found is None:
             return {}
         key = f"{found['name']} {found['aos']}"

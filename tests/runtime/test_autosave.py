@@ -18,8 +18,9 @@ from rotator.config.load import load
 from rotator.exchange.motor import Motor
 from rotator.exchange.orders import Aim, Calibrate, Order
 from rotator.exchange.sources import Source
-from rotator.runtime.autosave import Autosave, aside
+from rotator.runtime.autosave import Autosave
 from rotator.runtime.loop import ControlLoop
+from rotator.runtime.own_thread import aside
 from rotator.store.hanging import writes
 from tests.refusing import hanging, wait_until
 from tests.search import some

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from rotator.config.station import NO_PLACE
-from rotator.web.computed import ERROR_KEPT_S
-from rotator.web.plan import KEPT_S, Passes
+from rotator.web.computed import ERROR_KEPT_S, Computed
+from rotator.web.plan import KEPT_S, coming_passes
 from tests.web.conftest import PATIENCE_S
 
 
@@ -19,7 +19,7 @@ def printing(text: str, code: int = 0, *, to: str = "stdout") -> tuple[str, ...]
     return (sys.executable, "-c", f"import sys; sys.{to}.write({text!r}); sys.exit({code})")
 
 
-async def computed(passes: Passes) -> dict[str, Any]:
+async def computed(passes: Computed) -> dict[str, Any]:
     """Ask until they are there, as the page does."""
     async with asyncio.timeout(PATIENCE_S):
         while (answer := passes.answer()) is None:
@@ -29,7 +29,7 @@ async def computed(passes: Passes) -> dict[str, Any]:
 
 async def test_an_error_is_not_kept_for_long() -> None:
     now_s = [0.0]
-    passes = Passes(printing("", 3), lambda: now_s[0])
+    passes = coming_passes(printing("", 3), lambda: now_s[0])
     assert "error" in await computed(passes)
     now_s[0] = ERROR_KEPT_S
     assert passes.answer() is None
@@ -40,7 +40,7 @@ async def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
     counts = tmp_path / "counts"
     words = (sys.executable, "-c", f"open({str(counts)!r}, 'a').write('x'); print('[]')")
     now_s = [0.0]
-    passes = Passes(words, lambda: now_s[0])
+    passes = coming_passes(words, lambda: now_s[0])
     assert passes.answer() is None, "no request waits for them"
     assert await asyncio.gather(computed(passes), computed(passes)) == [{"passes": []}] * 2
     assert counts.read_text() == "x"
@@ -54,13 +54,13 @@ async def test_new_elements_change_them(tmp_path: Path) -> None:
     counts = tmp_path / "counts"
     words = (sys.executable, "-c", f"open({str(counts)!r}, 'a').write('x'); print('[]')")
     known: list[object] = [()]
-    passes = Passes(words, lambda: 0.0, lambda: known[0])
+    passes = coming_passes(words, lambda: 0.0, lambda: known[0])
     await computed(passes)
     assert passes.answer() is not None, "nothing is new"
     known[0] = ("ISS",)
     assert passes.answer() is None
     await computed(passes)
-    assert passes.known == []
+    assert passes.latest() == {"passes": []}
     assert counts.read_text() == "xx"
 
 
@@ -74,5 +74,5 @@ async def test_new_elements_change_them(tmp_path: Path) -> None:
     ],
 )
 def test_a_box_without_a_sky_says_why(words: tuple[str, ...] | None, error: str) -> None:
-    answer = asyncio.run(computed(Passes(words, lambda: 0.0)))
+    answer = asyncio.run(computed(coming_passes(words, lambda: 0.0)))
     assert answer["error"].startswith(error)
