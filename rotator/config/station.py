@@ -39,7 +39,7 @@ class StationTable(Table):
     altitude_m: float = Field(0.0, ge=-430, le=9000)
     """Metres above the sea."""
     locator: Annotated[str, AfterValidator(_exact_enough)] | None = None
-    """In place of the two: a Maidenhead locator of 6 to 12 characters."""
+    """Instead of latitude and longitude: a Maidenhead locator of 6 to 12 characters."""
     beam_deg: float = Field(20.0, gt=0, le=180)
     """The antenna's beam, from edge to edge at half power: beyond half of it a pointing error is warned of."""
     refraction: bool = False

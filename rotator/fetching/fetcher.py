@@ -20,7 +20,7 @@ from rotator.store.fetches import Asked, FetchesFile, file_of
 
 log = logging.getLogger(__name__)
 
-UNANSWERED = "the box ended before the answer came"
+UNANSWERED = "asked, and no answer has come yet"
 DAMAGED = "the record of earlier fetches was damaged"
 FORGOTTEN_S = 7 * REFUSED_S
 """The record of an address that is no longer in the configuration is kept for this time."""

@@ -29,7 +29,7 @@ def test_a_lost_phone_is_unpaired_by_another_browser_and_its_button_turns_no_mor
     lost.get_by_role("button", name="Hold to turn CW", exact=True).hover()
     lost.mouse.down()
     headline(mine, "TURNING")
-    mine.get_by_role("link", name="Browsers").click()
+    mine.locator(".connection a").click()
     mine.get_by_role("button", name="Unpair lost phone").click()
     mine.get_by_text("lost phone", exact=True).wait_for(state="detached")
     mine.get_by_role("link", name="Antenna").click()

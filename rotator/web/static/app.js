@@ -88,17 +88,17 @@ function Antenna({ station, now, hello, fresh, say }) {
         <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
         <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />
       </section>
-      <div class="demo-panel"><${Demo} now=${now} say=${say} /></div>
+      <div class=${`demo-panel ${paired ? "mine" : ""}`}><${Demo} now=${now} say=${say} /></div>
     </div>
   </main>`;
 }
 
-const VIEWS = [["", "Antenna"], ["sky", "Plan"], ["pass", "Pass"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
+const VIEWS = [["", "Antenna"], ["sky", "Plan"], ["pass", "Pass"], ["setup", "Setup"], ["doctor", "Help"]];
 
 /** The view that the address names; of one that is not known the first. */
 function shownView() {
   const hash = location.hash.slice(1).split("/")[0];
-  return helps(hash) || VIEWS.some(([each]) => each === hash) ? hash : "";
+  return helps(hash) || hash === "paired" || VIEWS.some(([each]) => each === hash) ? hash : "";
 }
 
 function Page() {
@@ -120,7 +120,7 @@ function Page() {
       <h1>rotator</h1>
       ${now?.status.simulated && html`<strong class="sim">SIM<span> simulated: nothing real turns</span></strong>`}
       <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
-      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? (hello.paired ? hello.name : "may only look") : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
+      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? html`<a href="#paired" title="Paired browsers and programs">${hello.paired ? hello.name : "may only look"}</a>` : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
     </header>
     ${now && html`<${Strip} now=${now} paired=${hello.paired} fresh=${fresh} beside=${view === ""} said=${said} say=${say} />`}
     ${now && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}

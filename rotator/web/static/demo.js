@@ -46,7 +46,7 @@ export function Demo({ now, say }) {
   if (left) return html`<${Left} pass=${left} again=${() => fly(left.name.endsWith(FAST) ? "fast" : "life")} close=${() => (setLeft(null), setSince(0))} />`;
   if (waits && !now.stopper) return html`<${Says} words="The pass is over. Its picture is drawn …" />`;
   const busy = status.tracks || now.tracking === "planning" || now.stopper || now.holder || status.panel_mode !== "auto" || status.azimuth.fault || status.elevation.fault;
-  return busy ? null : html`<section class="panel demo" aria-label="Demonstration">
+  return busy ? null : html`<section class="panel demo offer" aria-label="Demonstration">
     <button type="button" class="go" onClick=${() => fly("fast")}>Fly a demo pass</button>
     <p>See it work: the ISS flies over your continent, ten times as fast as life, and the simulated antenna follows. Nothing real turns.</p>
     <button type="button" class="link" onClick=${() => fly("life")}>Or in ten minutes, as fast as in life</button>
@@ -59,7 +59,7 @@ function Flies({ now, flight }) {
   const waits = flight.begins_in_s > 0, fast = flight.name.endsWith(FAST), lasts = flight.ends_in_s - flight.begins_in_s;
   return html`<section class="panel demo" aria-label="Demonstration">
     <p class="what"><b>${flight.name.split(MARK)[0]}</b>${" "}
-      ${waits ? html`rises in <b>${clock(flight.begins_in_s)}</b>: the antenna turns to that place` : html`is up for <b>${clock(Math.max(0, flight.ends_in_s))}</b> more${now.off_deg == null ? "" : html`, the antenna is off by <b>${now.off_deg.toFixed(1)}°</b>`}`}</p>
+      ${waits ? html`rises in <b>${clock(flight.begins_in_s)}</b>: the antenna turns to where it rises` : html`is up for <b>${clock(Math.max(0, flight.ends_in_s))}</b> more${now.off_deg == null ? "" : html`, the antenna is off by <b>${now.off_deg.toFixed(1)}°</b>`}`}</p>
     <progress max=${lasts} value=${waits ? 0 : Math.min(lasts, -flight.begins_in_s)} aria-label="Flown of the pass"></progress>
     <p class="about">${fast ? "Its path is ten times as fast as life; the rotor turns as fast as a real one. So the antenna stays some degrees behind: in life it is off by about two degrees." : "Path and rotor are as fast as in life."}</p>
   </section>`;

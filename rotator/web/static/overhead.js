@@ -6,7 +6,7 @@ import { Orders } from "/orders.js";
 import { clock, place, wayAt } from "/sky.js";
 import { act, html, useEffect, useMemo, useRef, useState } from "/ui.js";
 
-const EVERY_MS = 60_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, NONE_MS = 5000, MOVES_MS = 200, TAIL_S = 75, ROWS = 60;
+const EVERY_MS = 60_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, NONE_MS = 2000, MOVES_MS = 200, TAIL_S = 75, ROWS = 60;
 const TOUCH_PX = 22, LABEL_REM = 0.82, LINE = 1.25, EDGE = 103, POINTS = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
 // What the backdrop has written there: the heights of its two rings.
 const HEIGHTS = [30, 60].map((el) => ({ textX: 4, textY: (-100 * (90 - el)) / 90 - 3, text: "00°" }));
@@ -71,9 +71,9 @@ function labels(shown, px, kept, written) {
   const around = (x, y, wide) => [x - wide / 2, y - (LINE * font) / 2, x + wide / 2, y + (LINE * font) / 2];
   const taken = written.map(({ textX, textY, text }) => around(textX, textY, width(text) * font));
   const dots = shown.filter(({ counts }) => counts).map(({ x, y }) => [x - gap / 2, y - gap / 2, x + gap / 2, y + gap / 2]);
-  for (const { one, x, y } of shown) {
+  for (const { one, x, y, flown } of shown) {
     if (found.length === most) break;
-    const wide = width(one.short) * font, high = LINE * font, off = one.rank === "body" ? gap + 5 * px : gap;
+    const wide = width(one.short) * font, high = LINE * font, off = one.rank === "body" ? gap + 5 * px : flown ? gap + 10 * px : gap;
     const sides = [["start", x + off, y], ["end", x - off, y], ["middle", x, y - off - high / 2], ["middle", x, y + off + high / 2]];
     const order = [kept.get(key(one)) ?? 0, 0, 1, 2, 3];
     const side = order.find((each) => {
@@ -171,7 +171,7 @@ export function UpNow({ sky, fault, known, clockKnown, chosen, choose }) {
   const up = rows.filter(([, way]) => way).length;
   return html`<section class="upnow" aria-label="Up now"><h2>${sky ? `${up} up now` : "Up now"}</h2>
     ${!known ? html`<p>The box does not know where it stands: <a href="#setup">tell it</a>.</p>` : fault ? html`<p>${fault}</p>` : !sky && html`<p role="status">The box computes the sky …</p>`}
-    ${sky && !sky.satellites && html`<p>${clockKnown || !sky.unfetched ? `${sky.why_none}.` : "The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:"} <a href="#setup/8">Setup, step 8</a></p>`}
+    ${sky && !sky.satellites && html`<p>${!sky.unfetched ? html`${`${sky.why_none}.`} <a href="#setup/8">Setup, step 8</a>` : clockKnown ? html`No satellites are known yet: <a href="#sky/elements">why, and how to send a file</a>` : html`${"The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:"} <a href="#setup/8">Setup, step 8</a>`}</p>`}
     <ul>${rows.slice(0, ROWS).map(([one, way]) => html`<li key=${key(one)}><button type="button" class=${way ? one.rank || "other" : "soon"} aria-pressed=${key(one) === chosen} onClick=${() => choose(key(one))}>
       <b>${one.short}</b><span>${way ? `${Math.round(wayAt(way)[1])}° ${POINTS[Math.round(wayAt(way)[0] / 45) % 8]}` : `in ${span(one.aos_s - at)}`}</span></button></li>`)}</ul>
     ${rows.length > ROWS && html`<p class="hint-line">and ${rows.length - ROWS + sky.left_out} more on the sky</p>`}</section>`;

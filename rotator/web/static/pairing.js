@@ -21,11 +21,11 @@ export function Pair({ onPaired, locked }) {
     act(post("pair", { code, name }).then(onPaired), (fault) => (say(fault), fault && (typed.current.focus({ preventScroll: true }), typed.current.select())));
   };
   return html`<section class="pair" aria-label="Pair this browser">
-    <p>${locked ? "This box shows itself to paired browsers alone. You can stop it. To look, and to move the antenna," : "You can look, and stop. To move the antenna,"} pair this browser once.</p>
+    <p>${locked ? "This box shows itself to paired browsers alone. You can stop it. To look, to move the antenna, and to set up the box," : "You can look, and stop. To move the antenna, and to set up the box,"} pair this browser once.</p>
     ${!open && html`<button type="button" class="go" onClick=${begin}>Pair this browser</button>`}
     ${open && html`<form onSubmit=${enter} ref=${form}>
       <p>The box shows six digits on its display for two minutes. Without a display: <code>${command} pair</code></p>
-      <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}" required value=${code} ref=${typed}
+      <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}" title="Six digits" required value=${code} ref=${typed}
         aria-invalid=${said !== ""} aria-describedby="pair-said" onInput=${(event) => setCode(event.target.value)} /></label>
       <${Said} id="pair-said" text=${said} />
       <label>Name<input required maxlength="40" value=${name} onInput=${(event) => setName(event.target.value)} /></label>

@@ -48,7 +48,7 @@ function phonePoints({ alpha, beta, gamma, absolute, webkitCompassHeading: headi
 /** The phone's compass: where it points; a key of `COMPASS`; and what a press has to ask for on an iPhone. */
 function useCompass() {
   const [points, setPoints] = useState(null), asks = typeof globalThis.DeviceOrientationEvent?.requestPermission === "function";
-  const [state, setState] = useState(!isSecureContext ? "https" : asks ? "ask" : "looks");
+  const [state, setState] = useState(!matchMedia("(pointer: coarse)").matches ? "none" : !isSecureContext ? "https" : asks ? "ask" : "looks");
   useEffect(() => {
     // Some browsers tell without being asked.
     const hear = (event) => {

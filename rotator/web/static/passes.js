@@ -60,9 +60,9 @@ export function Passes({ now: box, station, hello, say }) {
     <section class="log"><${Timeline} now=${box} station=${station} hello=${hello} say=${say} coming=${coming} />
       ${passes && html`<details class=${waits ? "old" : ""}><summary>The plan as a list</summary><${PlanTable} passes=${passes} /></details>`}</section>
     <section class="log passes"><h2>Passes of the next day</h2>
-    <p>Error: how far a satellite may be off, from the age of its elements.</p>
-    <${NumberField} label="Passes that reach, in degrees" least="0" value=${leastDeg} onInput=${setLeastDeg} />
-    <p class="said" role="status">${station.where ? fault : html`The box does not know where it stands: <a href="#setup">tell it</a>.`}</p>
+    ${passes?.length > 0 && html`<p>Error: how far a satellite may be off, from the age of its elements.</p>
+    <${NumberField} label="Passes that reach, in degrees" least="0" value=${leastDeg} onInput=${setLeastDeg} />`}
+    <p role="status">${station.where ? fault : html`The box does not know where it stands: <a href="#setup">tell it</a>.`}</p>
     ${shown.length > 0 && html`<${Orders} now=${box} hello=${hello} quiet><table><thead><tr><th scope="col">satellite</th><th scope="col">rises</th><th scope="col" class="wide">at</th>
       <th scope="col" class="wide">for</th><th scope="col">highest</th><th scope="col" class="wide">from, to</th><th scope="col">error</th><th scope="col">track</th></tr></thead>
       <tbody>${shown.slice(0, rows).map((pass) => html`<${Row} key=${pass.name + pass.tca} pass=${pass} now=${now} paired=${paired} tracked=${tracks?.name === pass.name} track=${track} beam=${station.beam_deg} />`)}</tbody></table><//>`}

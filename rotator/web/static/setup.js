@@ -133,5 +133,5 @@ export function Setup({ now, hello, station, live, fresh, say }) {
     <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}>${!begins && placed}<${Clock} now=${now} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
     <${Step} number="10" title="Open it to the network">${made ? html`<${Network} ...${of} />` : missing}<//>
-    <${Step} number="11" title="All settings"><${Settings} ...${of} /><//></div>`;
+    <${Step} number="11" title="All settings"><${Settings} ...${of} /><//><p><a href="#paired">Paired browsers and programs</a></p></div>`;
 }

@@ -18,7 +18,7 @@ export const degrees = (angle, digits = 1) => (angle == null ? "---" : `${angle.
 export const fitted = (of) => ["azimuth", "elevation"].filter((axis) => of[axis].fitted);
 
 /** What answers a press is in sight, never behind STOP or the edge: the margins of the page are in style.css. */
-export const intoSight = (element) => element?.scrollIntoView({ block: element.offsetHeight > innerHeight / 2 ? "start" : "nearest" });
+export const intoSight = (element) => element?.scrollIntoView({ block: element.offsetHeight > innerHeight * 0.7 ? "start" : "nearest" });
 
 /** A sentence that answers a press, beside what was pressed. Good news is told in the same place. */
 export function Said({ text, good, id }) {
