@@ -31,7 +31,7 @@ LOOKS_S = 1.0
 MOST_REMARKS = 4
 GONE_S = 300.0
 """After this time without a browser the calibration ends, and nothing of it is saved."""
-SIMULATED = "This rotor is simulated, and begins at its low stops: hold the button for some seconds first."
+SIMULATED = "This rotor is simulated, and may stand at a stop: then hold the button for some seconds first."
 NOT_NOW = "the calibration turns it again after your answer"
 
 

@@ -32,7 +32,7 @@ from rotator.store.latch import KeptLatch
 POLL_S = 0.02
 COMPASS, NORTH, SKY = "compass", "north", "sky"
 SIMULATED = (
-    "SIMULATED rotor: nothing real turns. It begins at its low stops: where a question wants the middle of the travel, "
+    "SIMULATED rotor: nothing real turns. It may stand at a stop: where a question wants the middle of the travel, "
     "first hold the key for clockwise, or up, for some seconds."
 )
 
