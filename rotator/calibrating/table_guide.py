@@ -181,9 +181,10 @@ class TableGuide(AxisGuide):
             least = yield from self._number("Lowest angle:", min(max(self.facts.min_deg, low_deg), high_deg), lowest)
             if least is None:
                 continue
-            most = yield from self._number("Highest angle:", max(min(self.facts.max_deg, high_deg), low_deg), highest)
-            if most is None:
-                continue
-            if low_deg <= least < most <= high_deg:
-                return least, most
+            if low_deg <= least < high_deg:
+                most = yield from self._number("Highest angle:", max(min(self.facts.max_deg, high_deg), low_deg), highest)
+                if most is None:
+                    continue
+                if least < most <= high_deg:
+                    return least, most
             self._say(f"Refused: the limits must lie within {low_deg:g} to {high_deg:g}, the lower one first.")

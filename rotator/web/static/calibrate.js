@@ -47,7 +47,7 @@ function Asked({ told, now, station, live, answer, say, title }) {
   return html`<h2 tabindex="-1" ref=${title}>${text}</h2>
     <div class="guide-see"><div class="sights"><${Picture} name=${picture} axis=${told.axis} /><${Reading} told=${told} now=${now} /></div>
       ${hint.map((line) => html`<p>${line}</p>`)}
-      <div class="remarks" role="status">${told.remarks.map((line) => html`<p class=${told.fault && line.endsWith(told.fault) ? "mistake" : ""}>${line}</p>`)}</div></div>
+      <div class="remarks" role="status">${told.remarks.map((line) => html`<p class=${/^Refused|cannot be saved/.test(line) || (told.fault && line.endsWith(told.fault)) ? "mistake" : ""}>${line}</p>`)}</div></div>
     <div class="guide-answers">
       ${turns && html`<${JogPad} station=${station} live=${live} axes=${[told.axis]} say=${say} />`}
       ${asksNumber && html`<${Angle} key=${told.asked} proposed=${proposed} answer=${answer} />`}
