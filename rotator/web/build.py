@@ -154,6 +154,7 @@ def build_page(
                 config.station.beam_deg,
                 (config.azimuth.tolerance_deg, config.elevation.tolerance_deg),
                 place,
+                calibration.axis.value if calibration else "",
             ),
             scene=scene,
             lines=lines,

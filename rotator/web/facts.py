@@ -30,6 +30,8 @@ class Station:
     tolerances_deg: tuple[float, float]
     where: tuple[float, float] | None
     """Latitude and longitude; None: not known."""
+    calibrates: str
+    """The axis that is calibrated now; empty: none."""
 
 
 _Range = TypedDict("_Range", {"min_deg": float, "max_deg": float, "fitted": Annotated[bool, the("it has this axis")]})
@@ -42,6 +44,7 @@ class BoxFacts(TypedDict):
     simulated: Annotated[bool, the("nothing real turns")]
     beam_deg: Annotated[float, the("how wide the antenna sees")]
     where: Annotated[Pair | None, the("latitude and longitude, to a whole degree for who is not paired")]
+    calibrates: Annotated[str, the("the axis that is calibrated now; empty: none")]
     azimuth: _Range
     elevation: _Range
     tolerance_deg: Annotated[Pair, the("of azimuth and elevation: so near is at the target")]
@@ -68,6 +71,7 @@ def box(station: Station, status: Status, *, stranger: bool) -> BoxFacts:
         "simulated": status.simulated,
         "beam_deg": station.beam_deg,
         "where": [round(deg) for deg in exact] if exact and stranger else exact,
+        "calibrates": station.calibrates,
         "azimuth": _range(mount.azimuth.shown, fitted=Axis.AZIMUTH in mount.fitted),
         "elevation": _range(mount.elevation, fitted=Axis.ELEVATION in mount.fitted),
         "tolerance_deg": station.tolerances_deg,

@@ -216,6 +216,6 @@ def test_a_motor_stops_when_the_browser_goes_and_a_calibration_that_is_left_save
     page.mouse.up()
     page.get_by_role("button", name="Leave", exact=True).click()
     page.locator(".asks").get_by_role("button", name="Leave", exact=True).click()
-    asks(page, "The azimuth is not calibrated")
+    asks(page, "The azimuth is as it was before")
     page.get_by_text("Left: nothing is saved.").wait_for()
     assert kept(station) == before

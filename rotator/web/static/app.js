@@ -73,7 +73,7 @@ function Antenna({ station, now, hello, fresh, say }) {
       <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}
         ${station.elevation.fitted && html`<${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} />`}</div>
       <div class="panel front-panel"><${Front} now=${now} /><${Notes} now=${now} /></div>
-      <div class="panel links-panel"><${Links} now=${now} /></div>
+      <div class="panel links-panel"><${Links} now=${now} station=${station} /></div>
       <div class="panel chart-panel"><${Chart} past=${past} axes=${fitted(station)} /></div>
     </div>
     <div class="aside">

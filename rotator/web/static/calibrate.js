@@ -56,7 +56,7 @@ function Asked({ told, now, station, live, answer, say, title }) {
 
 function Outcome({ latest, now, settings, onDone, say, title }) {
   const next = latest.halfway ? latest.axis : fitted(now.status).find((axis) => axis !== latest.axis && now.status[axis].missing.length > 0);
-  return html`<h2 tabindex="-1" ref=${title}>${latest.saved ? (latest.halfway ? "The compass has learnt the iron around it." : `The ${latest.axis} is calibrated.`) : `The ${latest.axis} is not calibrated.`}</h2>
+  return html`<h2 tabindex="-1" ref=${title}>${latest.saved ? (latest.halfway ? "The compass has learnt the iron around it." : `The ${latest.axis} is calibrated.`) : `The ${latest.axis} is as it was before.`}</h2>
     <div class="guide-see">${latest.saved && html`<div class="sights"><${Picture} name="save" /></div>`}${latest.said.map((line) => html`<p>${line}</p>`)}
       ${latest.saved && now.status[latest.axis].missing.join() === "homing" && html`<p>One thing is left: it does not know yet where it stands.</p><${Errands} now=${now} axes=${[latest.axis]} say=${say} />`}</div>
     <div class="guide-answers"><div class="answers"><button type="button" class="go" onClick=${onDone}>Done</button>

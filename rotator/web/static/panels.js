@@ -23,7 +23,7 @@ export function Headline({ now, hello, next }) {
         <dd class="to">${now[`${axis}_target_deg`] != null ? `aim ${degrees(now[`${axis}_target_deg`])}` : " "}</dd></div>`)}
     </dl>
     <p class="facts">
-      ${azimuth.missing.length + elevation.missing.length > 0 && html`<span>a new box begins with <a href="#setup">Setup</a></span>`}
+      ${hello.box.calibrates ? html`<span>a calibration runs: <a href="#setup">go on with it</a></span>` : azimuth.missing.length + elevation.missing.length > 0 && html`<span>a new box begins with <a href="#setup">Setup</a></span>`}
       ${now.off_deg != null && html`<span>off by <b>${now.off_deg.toFixed(1)}°</b></span>`}
       ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
       ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
@@ -107,9 +107,9 @@ export function Front({ now }) {
     <${Lamps} now=${now} /></section>`;
 }
 
-export function Links({ now }) {
+export function Links({ now, station }) {
   return html`<section class="links"><h2>Links</h2><ul>
     ${now.links.map((link) => html`<li class=${link.out ? "out" : ""}><b>${link.name}</b> <span>${link.where}</span>
       <span class="state">${link.state}</span>${link.heard && html`<code>${link.heard}</code>`}</li>`)}
-    ${!now.links.length && html`<li>The file has no [[link]]: no program can connect. <a href="#setup/9">Setup, step 9</a></li>`}</ul></section>`;
+    ${!now.links.length && (station.calibrates ? html`<li>a calibration runs: it keeps programs away</li>` : html`<li>The file has no [[link]]: no program can connect. <a href="#setup/9">Setup, step 9</a></li>`)}</ul></section>`;
 }
