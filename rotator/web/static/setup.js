@@ -113,7 +113,7 @@ export function Setup({ now, hello, station, live, fresh, say }) {
   const settings = useSettings(say, hello);
   const { file } = settings, made = ready(settings), of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
   const calibrated = (axis) => !now.status[axis].fitted ? "not fitted" : (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
-  const missing = html`<${Missing} settings=${settings} />`, known = station.where !== null, begins = useRef(!known).current;
+  const missing = html`<${Missing} settings=${settings} />`, known = station.where !== null, begins = useRef(!known).current, asksTime = begins && known && !now.clock_known;
   const step = location.hash.split("/")[1];
   // What stands above it grows when the settings come.
   useEffect(() => void (made && step && intoSight(document.querySelector(`.step:nth-of-type(${step})`))), [made, step]);
@@ -121,7 +121,7 @@ export function Setup({ now, hello, station, live, fresh, say }) {
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
   return html`<${Guide} now=${now} station=${station} live=${live} fresh=${fresh} settings=${settings} /><div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
     <${NoFile} settings=${settings} moving=${moving} />
-    ${begins && made && html`<section class="begin"><h3>Begin here: place and satellites</h3>${placed}${known && !now.clock_known && html`<${Clock} now=${now} say=${say} />`}</section>`}
+    ${begins && made && html`<section class="begin"><h3>Begin here: place and satellites</h3>${placed}${asksTime && html`<${Clock} now=${now} say=${say} />`}</section>`}
     <${Step} number="1" title="Which rotor" done=${file?.values.rotor?.type}><${Rotor} ...${of} /><//>
     <${Step} number="2" title="Wiring" done=${file?.values.rotor?.hardware === "pi" ? "on this Pi" : "simulated"}><${Wiring} settings=${settings} say=${say} /><//>
     <${Step} number="3" title="Try each relay"><${Relays} now=${now} hello=${hello} say=${say} />${some(["relays"])}<//>
@@ -130,7 +130,7 @@ export function Setup({ now, hello, station, live, fresh, say }) {
     ${["azimuth", "elevation"].map((axis, at) => html`<${Step} number=${5 + at} title=${`Calibrate the ${axis}`} done=${calibrated(axis)}>${!now.status[axis].fitted ? html`<p>This rotor has no ${axis}.</p>`
       : html`${made ? html`<${Begin} axis=${axis} settings=${settings} moving=${moving} />` : missing}<${Errands} now=${now} axes=${[axis]} say=${say} />`}<//>`)}
     <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount", "mount.forbidden"], ["endless", "min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon", "name", "azimuth_deg", "elevation_deg"])}<//>
-    <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}>${!begins && placed}<${Clock} now=${now} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
+    <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}>${!begins && placed}${!asksTime && html`<${Clock} now=${now} say=${say} />`}${some(["station", "sky", "sky.follow"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
     <${Step} number="10" title="Open it to the network">${made ? html`<${Network} ...${of} />` : missing}<//>
     <${Step} number="11" title="All settings"><${Settings} ...${of} /><//><p><a href="#paired">Paired browsers and programs</a></p></div>`;
