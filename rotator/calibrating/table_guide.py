@@ -182,7 +182,8 @@ class TableGuide(AxisGuide):
             if least is None:
                 continue
             if low_deg <= least < high_deg:
-                most = yield from self._number("Highest angle:", max(min(self.facts.max_deg, high_deg), low_deg), highest)
+                proposed_deg = max(min(self.facts.max_deg, high_deg), low_deg)
+                most = yield from self._number("Highest angle:", proposed_deg, highest)
                 if most is None:
                     continue
                 if least < most <= high_deg:
