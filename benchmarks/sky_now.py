@@ -7,6 +7,7 @@ and the place in it that lets the satellite rise, or set, when it shall.
 from __future__ import annotations
 
 import json
+import random
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -33,6 +34,24 @@ def satellite(name: str, number: int, utc_s: float, site: Site, wanted: Callable
             if wanted(Satellite(each, site)):
                 return each
     raise ValueError(f"no orbit lets {name} do that")
+
+
+def crowd(utc_s: float, count: int, site: Site) -> list[Elements]:
+    """Satellites that are up now, at any place of the sky, and a minute later."""
+    draw, found = random.Random(7), list[Elements]()
+    while len(found) < count:
+        node_deg, anomaly_deg = draw.uniform(0, 360), draw.uniform(0, 360)
+        each = replace(
+            LIKE,
+            name=f"CROWD {len(found)}",
+            catalogue_number=91_000 + len(found),
+            epoch_utc_s=utc_s,
+            ascending_node_deg=node_deg,
+            mean_anomaly_deg=anomaly_deg,
+        )
+        if all(Satellite(each, site).sight(utc_s + later_s).elevation_deg > 2 for later_s in (0, 60)):
+            found.append(each)
+    return found
 
 
 def rises_in(utc_s: float, wait_s: float, highest_deg: float = 30.0) -> Callable[[Satellite], bool]:

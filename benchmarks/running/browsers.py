@@ -1,7 +1,8 @@
 """A crowd of browsers, each a machine of its own.
 
 A browser asks for what `rotator/web/static/app.js` asks for, and as often: the files of the page, ten pictures a
-second, what the box is, the past, the next pass, the path of what is tracked. Does not know the box.
+second, what the box is, the past, the next pass, what is up, where the antenna cannot point, the path of what is
+tracked. Does not know the box.
 """
 
 from __future__ import annotations
@@ -19,8 +20,8 @@ import aiohttp
 from rotator.web import assets
 
 COMES_WITHIN_S = 5.0
-PAST_S, NEXT_S, COMPUTES_S = 5.0, 20.0, 2.0
-"""As in app.js."""
+PAST_S, NEXT_S, SKY_S, COMPUTES_S = 5.0, 20.0, 60.0, 2.0
+"""As in app.js and overhead.js."""
 
 
 @dataclass
@@ -43,6 +44,8 @@ class Browser:
             requests.create_task(self._look())
             requests.create_task(self._again("/api/past", PAST_S))
             requests.create_task(self._again("/api/next", NEXT_S))
+            requests.create_task(self._again("/api/sky", SKY_S))
+            requests.create_task(self._read("/api/unreached"))
 
     async def _look(self) -> None:
         try:

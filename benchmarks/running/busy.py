@@ -33,8 +33,10 @@ from benchmarks.running.box import PATIENCE_S, Box
 from benchmarks.running.browsers import browsers
 from benchmarks.running.programs import Program, program
 from benchmarks.running.quota import NoQuotaError, fifth_of_a_core
-from benchmarks.running.words import ALL
+from benchmarks.running.words import ALL, STATION
+from benchmarks.sky_now import as_json, crowd
 from rotator.config.load import shipped
+from rotator.orbits.earth import Site
 from rotator.rehearsal.passes import find_pass, shipped_names
 
 PROFILES = {"relay-pot": "simulated", "relay-pulse": "u100"}
@@ -46,6 +48,8 @@ JOG_S = 0.6
 """So long at least a jog lasts; with the motor's coast before it a relay has closed by then."""
 IN_VAIN_S = 5.0
 """A relay that opens later has not opened for this stop."""
+SATELLITES = 60
+"""Over it in the case of browsers."""
 NICE, RTTIME_US = -10, 500_000
 """LimitRTTIME of install/rotator.service, and the niceness whose share is that of its CPUWeight against one process."""
 LATE_MS, CORE, MORE_MS, WORST_MORE_MS, LEAST_HZ = 10.0, 0.15, 1.0, 10.0, 9.5
@@ -123,7 +127,7 @@ async def measure(case: Case, seconds: int, kind: str = "relay-pot", *, stop_eve
     """Raises NoQuotaError."""
     with tempfile.TemporaryDirectory() as folder:
         links = [each for each in ALL if each.protocol in ("gs232b", "rotctld")]
-        box = Box(Path(folder), tables(kind), links)
+        box = Box(Path(folder), tables(kind) | (_sky(Path(folder)) if case.browsers else {}), links)
         try:
             # It has no threads yet.
             urgent_us = RTTIME_US if case.as_service else resource.RLIM_INFINITY
@@ -171,6 +175,13 @@ def tables(kind: str) -> dict[str, Any]:
     values.setdefault("relays", {})["dead_time_s"] = DEAD_TIME_S[kind]
     values.setdefault("sim", {}).setdefault("azimuth", {})["start_deg"] = START_DEG
     return values | {"lcd": {"kind": "pcf8574"}}
+
+
+def _sky(folder: Path) -> dict[str, Any]:
+    """What the box needs to show the sky: a place, and as many satellites over it as it shows at once."""
+    sets = crowd(time.time(), SATELLITES, Site(STATION["latitude_deg"], STATION["longitude_deg"]))
+    (folder / "up.json").write_text(as_json(sets), encoding="utf-8")
+    return {"station": STATION, "sky": {"elements": [f"{folder}/up.json"]}}
 
 
 async def _fly(

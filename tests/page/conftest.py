@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 START_S = 60.0
 PATIENCE_MS, LOOK_MS = 30_000, 50
-CHROMIUM = "/usr/bin/chromium"
+BROWSERS = {"chromium": "/usr/bin/chromium", "firefox": "/usr/bin/firefox-esr"}
 QUIET = (
     *("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"),
     *("--disable-component-update", "--disable-sync", "--host-resolver-rules=MAP rotator.lan 127.0.0.1"),
@@ -41,21 +41,27 @@ QUIET = (
 
 @pytest.fixture(scope="session")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    if not Path(CHROMIUM).exists():
-        reason = "chromium is missing: sudo apt install chromium"
+    """Chromium; another that ROTATOR_BROWSER names."""
+    name = os.environ.get("ROTATOR_BROWSER", "chromium")
+    program = BROWSERS[name]
+    if not Path(program).exists():
+        reason = f"{name} is missing: sudo apt install {Path(program).name}"
         if os.environ.get("CI") == "true":
             pytest.fail(reason)
         pytest.skip(reason)
     from playwright.sync_api import sync_playwright
 
     # A browser runs on another machine than the box: it may not take the box's time.
-    behind = tmp_path_factory.mktemp("browser") / "chromium"
-    behind.write_text(f'#!/bin/sh\nexec nice -n 15 {CHROMIUM} "$@"\n', encoding="utf-8")
+    behind = tmp_path_factory.mktemp("browser") / name
+    behind.write_text(f'#!/bin/sh\nexec nice -n 15 {program} "$@"\n', encoding="utf-8")
     behind.chmod(0o755)
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=behind, args=list(QUIET))
-        yield chromium
-        chromium.close()
+        if name == "firefox":
+            opened = playwright.firefox.launch(executable_path=behind, channel="moz-firefox")
+        else:
+            opened = playwright.chromium.launch(executable_path=behind, args=list(QUIET))
+        yield opened
+        opened.close()
 
 
 @pytest.fixture

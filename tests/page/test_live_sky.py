@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import random
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from benchmarks.sky_now import LIKE, as_json, rises_in, satellite, sets_in
+from benchmarks.sky_now import as_json, crowd, rises_in, satellite, sets_in
 from rotator.orbits.elements import Elements
-from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight
 from tests.orbits import skyfield_oracle
 from tests.page.conftest import Station, pair, violations
@@ -43,24 +40,6 @@ def file_of(folder: Path, sets: list[Elements], *, follow: str = "") -> str:
     (folder / "made.json").write_text(as_json(sets), encoding="utf-8")
     table = f'[[sky.follow]]\nname = "{follow}"\n' if follow else ""
     return f'[station]\nlocator = "{LOCATOR}"\n[sky]\nelements = ["{folder}/made.json"]\n{table}'
-
-
-def crowd(now_s: float, count: int) -> list[Elements]:
-    """Satellites that are up now, at any place of the sky, and a minute later."""
-    draw, found = random.Random(7), list[Elements]()
-    while len(found) < count:
-        node_deg, anomaly_deg = draw.uniform(0, 360), draw.uniform(0, 360)
-        each = replace(
-            LIKE,
-            name=f"CROWD {len(found)}",
-            catalogue_number=91_000 + len(found),
-            epoch_utc_s=now_s,
-            ascending_node_deg=node_deg,
-            mean_anomaly_deg=anomaly_deg,
-        )
-        if all(Satellite(each, SITE).sight(now_s + later_s).elevation_deg > 2 for later_s in (0, 60)):
-            found.append(each)
-    return found
 
 
 @pytest.mark.parametrize("how", HOWS, ids=["laptop", "phone"])
@@ -105,7 +84,7 @@ def test_what_is_up_stands_where_skyfield_sees_it_and_two_presses_track_it(
 def test_names_touch_no_other_and_what_is_followed_has_one(
     start: Start, visit: Visit, tmp_path: Path, light: str
 ) -> None:
-    sets = crowd(time.time(), 70)
+    sets = crowd(time.time(), 70, SITE)
     station = start(file_of(tmp_path, sets, follow="CROWD 41"))
     for how in HOWS:
         page = visit(station, color_scheme=light, **how)
