@@ -8,7 +8,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test style check tests docs reference drills planted scores sectors test-search test-quiet test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-demo picture-gpredict drawings languages languages-check dist deb lock clean
+.PHONY: run test style check tests docs reference drills planted scores sectors test-search test-quiet test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-firefox test-terminal bench fuzz soak mutants picture picture-page picture-demo picture-gpredict drawings languages languages-check dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -71,6 +71,13 @@ test-machines: $(VENV)/.dev
 # The page in Debian's Chromium, before the real program on a simulated rotor.
 test-page: $(VENV)/.dev
 	$(BIN)/pytest -n 2 --dist worksteal tests/page
+
+# The first evening in Debian's Firefox: looking on, pairing, setting up, the demo pass, the live sky.
+# `ROTATOR_BROWSER=firefox make test-page` runs all; what that needs of Chromium alone (a name of its own for the box,
+# the wires of its sockets, downloads) fails.
+test-firefox: $(VENV)/.dev
+	ROTATOR_BROWSER=firefox $(BIN)/pytest -n 2 --dist worksteal $(foreach name,$(FIREFOX),tests/page/test_$(name).py)
+FIREFOX := first_look first_use demo live_sky orders
 
 # install.sh and the .deb in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
 test-install: $(VENV)/.release

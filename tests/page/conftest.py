@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 START_S = 60.0
 PATIENCE_MS, LOOK_MS = 30_000, 50
 BROWSERS = {"chromium": "/usr/bin/chromium", "firefox": "/usr/bin/firefox-esr"}
+OVER_IT = {"widget.gtk.overlay-scrollbars.enabled": True, "ui.useOverlayScrollbars": 1}
+"""Firefox: a scrollbar lies over the page, as on a phone and as in Chromium without a window, and takes no width."""
 QUIET = (
     *("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"),
     *("--disable-component-update", "--disable-sync", "--host-resolver-rules=MAP rotator.lan 127.0.0.1"),
@@ -57,7 +59,9 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     behind.chmod(0o755)
     with sync_playwright() as playwright:
         if name == "firefox":
-            opened = playwright.firefox.launch(executable_path=behind, channel="moz-firefox")
+            opened = playwright.firefox.launch(
+                executable_path=behind, channel="moz-firefox", firefox_user_prefs=OVER_IT
+            )
         else:
             opened = playwright.chromium.launch(executable_path=behind, args=list(QUIET))
         yield opened
