@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 START_S = 60.0
 PATIENCE_MS, LOOK_MS = 30_000, 50
 BROWSERS = {"chromium": "/usr/bin/chromium", "firefox": "/usr/bin/firefox-esr"}
-OVER_IT = {"widget.gtk.overlay-scrollbars.enabled": True, "ui.useOverlayScrollbars": 1}
+OVER_IT: dict[str, str | float | bool] = {"widget.gtk.overlay-scrollbars.enabled": True, "ui.useOverlayScrollbars": 1}
 """Firefox: a scrollbar lies over the page, as on a phone and as in Chromium without a window, and takes no width."""
 QUIET = (
     *("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"),
