@@ -52,7 +52,7 @@ SINGLE = (
         "doubted",
         "today",
     ),
-    *("N", "E", "S", "W", "now", "done"),
+    *("N", "E", "S", "W", "now", "done", "good", "warning", "errors", "simulated"),
     "The file begins as the shipped one of this rotor. `rotator help wiring` shows each.",
     "One is enough to begin; a [[link]] more for each other. `rotator help programs` lists them all.",
     *("North", "East", "South", "West", "Yes", "Back", "Directions", "Times", "Limits"),
@@ -64,6 +64,12 @@ SINGLE = (
     *("clockwise", "counter-clockwise", "up", "down", "UP", "DOWN"),
 )
 """Words that are no sentence, so that nothing finds them by itself."""
+OF_THE_DOCTOR = (
+    *("free", "awake", "calibrated", "a place", "under-voltage", "throttled", "simulated: {0}"),
+    *("64-bit", "32-bit", "{0}: 0x{1} answers", "{0} satellites from {1}"),
+    *("over the top the antenna meets {0} too", "{0} stands on the other turn of the azimuth too"),
+)
+"""What else it says that is no sentence."""
 COLUMNS = re.compile(r"[ -\[\]-}]*")
 """What both character sets of an HD44780 have: ASCII without the backslash and the tilde."""
 
@@ -81,7 +87,11 @@ def texts() -> dict[tuple[str, str], str]:
         for path in [path for room in rooms for path in sentences.files(room)]:
             here = {(text, view): path.name for text in sentences.messages(path) if text not in display}
             found |= {each: name for each, name in here.items() if (each[0], "") not in found}
-    found |= {(text, "setup"): "settings" for text in sentences.meanings() if (text, "") not in found}
+    for view, where, there in (
+        ("setup", "settings", sentences.meanings()),
+        ("doctor", "checks.py", [*sentences.names_of_checks(), *OF_THE_DOCTOR]),
+    ):
+        found |= {(text, view): where for text in there if (text, "") not in found}
     return found | {(text, DISPLAY): f"display, {width} columns" for text, width in display.items()}
 
 
@@ -134,7 +144,7 @@ def _wrong(text: str, message: Message | None, columns: int) -> list[str]:
     told, found = str(message.string), []
     if Counter(re.findall(r"\{\d+\}", text)) != Counter(re.findall(r"\{\d+\}", told)):
         found.append("other placeholders")
-    if "<" in told or ('"' in told and '"' not in text):
+    if ("<" in told and "<" not in text) or ('"' in told and '"' not in text):
         found.append("a sign that would end a tag")
     if columns and len(told) > columns:
         found.append(f"{told!r} has more than {columns} columns")

@@ -14,6 +14,7 @@ from itertools import chain
 from pathlib import Path
 
 from rotator.config.keys import forms
+from rotator.doctor.checks import CONFIGURATION, OF_THE_MACHINE, OF_THE_STATION
 from rotator.exchange.faults import OF_ANOTHER_SENSOR, FaultKind, Missing
 from rotator.exchange.spoken import short_sender
 from rotator.views import lcd
@@ -31,7 +32,7 @@ ROOMS = {
         *(f"rotator/calibrating/{each}.py" for each in ("guide", "phrases", "question", "on_page", "readings")),
         *(f"rotator/calibrating/{each}.py" for each in ("table_draft", "rig", "at_start")),
     ),
-    "doctor": (),
+    "doctor": ("rotator/doctor",),
 }
 """By the context of their texts: the view of the page that alone shows them, if there is one."""
 _SENTENCE = re.compile(r"[a-z]{2,},? [a-z({\d]|[A-Za-z]{2,} [a-z]{2,}|^\{0\}[:,]? [a-z]{2,}|^[A-Z]{3,} [A-Z]{2,}")
@@ -41,6 +42,8 @@ _NO_SENTENCE = re.compile(
     r"|^[a-z-]+ '|; |%[sd]|`|\bEnter\b|\by or n\b|\bor b:|\bor n:|rotator calibrate|^which no |^field |^reading"
     r"|\? lists|nothing here|back here|^Type y |^b takes|^the arrows|^Setting up the|compass \{1\}$|t angle:$"
 )
+_COMMAND = re.compile(r"^sudo [^.;:,]*$|^sudo ip |^rotator [a-z]+$|^\{0\} \{1\}$|^bold|\|")
+"""What of the doctor's advice is a command and no more."""
 _KEY = re.compile(r"\{\w+_key\}")
 """A key that turns an axis: for a terminal."""
 _SILENT = frozenset(
@@ -49,6 +52,7 @@ _SILENT = frozenset(
         *("sub", "log", "debug", "info", "warning", "exception", "critical", "Method", "startswith", "endswith"),
         *("partition", "rpartition", "split", "removeprefix", "removesuffix", "create_task", "Thread"),
         *("_lead", "_head"),  # a guide's lines for a terminal
+        "Check",  # what the doctor looks at, for the documents
     ]
 )
 """Calls whose texts nobody reads on the page."""
@@ -63,8 +67,12 @@ def messages(path: Path) -> list[str]:
     found = [text for text in found if not _KEY.search(text)]
     wanted = [text for text in dict.fromkeys(map(_clean, found)) if _SENTENCE.search(text)]
     # In the page's own room what begins with a capital describes the API.
-    described = "web" in path.parts
-    return [text for text in wanted if not (_NO_SENTENCE.search(text) or (described and text[:1].isupper()))]
+    described, no_sentence = "web" in path.parts, _COMMAND if "doctor" in path.parts else _NO_SENTENCE
+    return [text for text in wanted if not (no_sentence.search(text) or (described and text[:1].isupper()))]
+
+
+def names_of_checks() -> list[str]:
+    return [check.name for check in (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)]
 
 
 def _clean(text: str) -> str:

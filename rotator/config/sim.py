@@ -23,7 +23,7 @@ class SimAxisTable(Table):
     pot_noise_deg: float = Field(0.1, ge=0, le=30)
     """Noise of the pot, rms."""
     pot_bow_deg: float = Field(0.0, ge=-30, le=30)
-    """The pot's deviation from a straight line, at mid-travel."""
+    """How far the pot leaves a straight line, at mid-travel."""
     start_deg: float | None = None
     """The angle at the start. Left out: where it stood last, at first 0; in a rehearsal the start of the pass."""
 

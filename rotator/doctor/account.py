@@ -57,7 +57,9 @@ def _membership(machine: Machine, user: str, needed: set[str]) -> Finding:
             f"{user} is not in {', '.join(missing)}",
             f"sudo usermod -aG {','.join(missing)} {user}, then log in again (a service: restart it).",
         )
-    return fine(f"{user} is in {', '.join(sorted(needed))}" if needed else f"the service gives {user} its groups")
+    return fine(
+        f"{user} is a member of {', '.join(sorted(needed))}" if needed else f"the service gives {user} its groups"
+    )
 
 
 def _groups_of(machine: Machine, user: str) -> set[str] | None:

@@ -98,4 +98,4 @@ def elements(machine: Machine, config: Config) -> Iterator[Finding]:
         elif asked.trouble:
             yield warn(f"{address}: {asked.trouble}", "rotator sky elements shows when it is asked again.")
         else:
-            yield fine(f"{address}: {asked.sets} satellites")
+            yield fine(f"{asked.sets} satellites from {address}")

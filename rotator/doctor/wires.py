@@ -57,7 +57,7 @@ def gpio_lines(machine: Machine, config: Config) -> Iterator[Finding]:
     if ours := [pin for pin, owner in held.items() if owner.startswith(OURS)]:
         yield fine(f"{gpios(ours)} held by the box: it is running")
     if free := [pin for pin in pins if pin not in held]:
-        yield fine(f"{gpios(free)} free")
+        yield fine(f"{gpios(free)}: free")
 
 
 def box_is_running(machine: Machine, config: Config) -> bool | None:

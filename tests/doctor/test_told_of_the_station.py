@@ -38,17 +38,17 @@ from tests.doctor.rows import (
 LINES = [
     Row("GPIO chip", "✓ /dev/gpiochip0 →"),
     Row("GPIO chip", "→ Leave relays.chip out", more='[relays]\nchip = "/dev/gpiochip4"\n'),
-    Row("GPIO lines", "✓ GPIO 22, 23, 24, 25, 17, 27, 5, 6, 12, 13 free →"),
+    Row("GPIO lines", "✓ GPIO 22, 23, 24, 25, 17, 27, 5, 6, 12, 13: free →"),
     Row("GPIO lines", "✗ GPIO 23, relays.azimuth_ccw, is held by onewire@0 → Stop that program, or remove the overlay "
         "from config.txt; or move relays.azimuth_ccw to a free pin.\n✓ GPIO 22, 24,", held=("onewire@0", 23)),
     Row("GPIO lines", "✓ GPIO 22 held by the box: it is running → \n✓ GPIO 23,", held=("rotator-relays", 22)),
-    Row("GPIO lines", "✓ GPIO 22, 23, 24, 25, 16, 26 free", more=f"[relays]\nmaster = 16\nheartbeat = 26\n{NO_LCD}"),
+    Row("GPIO lines", "✓ GPIO 22, 23, 24, 25, 16, 26: free", more=f"[relays]\nmaster = 16\nheartbeat = 26\n{NO_LCD}"),
     Row("GPIO lines", "✗ GPIO 16, pulses.azimuth.contact, is held by onewire@0 → Stop that program, or remove the "
         "overlay from config.txt; or move pulses.azimuth.contact to a free pin.\n"
-        "✓ GPIO 22, 23, 24, 25, 20, 10, 9, 19, 18 free", base=of("relay-pulse"),
+        "✓ GPIO 22, 23, 24, 25, 20, 10, 9, 19, 18: free", base=of("relay-pulse"),
         more=f"{SWITCHES}[pulses.azimuth]\nhome_deg = -3\n", held=("onewire@0", 16)),
-    Row("GPIO lines", "✓ GPIO 8, 7, 11, 10, 16 free", base=of("digipot"), more="[digipot]\nenable = 16\n"),
-    Row("GPIO lines", "✓ GPIO 16 free", base=of("digipot"),
+    Row("GPIO lines", "✓ GPIO 8, 7, 11, 10, 16: free", base=of("digipot"), more="[digipot]\nenable = 16\n"),
+    Row("GPIO lines", "✓ GPIO 16: free", base=of("digipot"),
         more='[digipot]\nspi = "kernel"\nenable = 16\n', held=("spi0 CS0", 8)),
     Row("released lines", "✓ the kernel lets a line go when its program dies →"),
     Row("released lines", "✗ strict_gpiod is in config.txt, and not yet in effect → sudo reboot",
@@ -220,9 +220,9 @@ SWITCHED = [
     Row("switches", "– cannot be read", more=PANEL, held=("onewire@0", 19)),
     Row("GPIO lines", "panel.stop, is held by onewire@0", more=PANEL, held=("onewire@0", 19)),
     # What was taken for a look is let go.
-    Row("GPIO lines", "✓ GPIO 22, 23, 24, 25, 10, 9, 11, 19, 18, 8, 17, 27, 5, 6, 12, 13 free", more=PANEL,
+    Row("GPIO lines", "✓ GPIO 22, 23, 24, 25, 10, 9, 11, 19, 18, 8, 17, 27, 5, 6, 12, 13: free", more=PANEL,
         spoil=lambda pi: pi.found("switches")),
-    Row("GPIO lines", "✓ GPIO 8, 11, 10, 9, 22, 23, 24, 25 free", more=f"{MCP3208}{NO_LCD}",
+    Row("GPIO lines", "✓ GPIO 8, 11, 10, 9, 22, 23, 24, 25: free", more=f"{MCP3208}{NO_LCD}",
         spoil=lambda pi: pi.found("pots")),
 ]  # fmt: skip
 
