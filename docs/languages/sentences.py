@@ -15,6 +15,7 @@ from pathlib import Path
 
 from rotator.config.keys import forms
 from rotator.doctor.checks import CONFIGURATION, OF_THE_MACHINE, OF_THE_STATION
+from rotator.doctor.finding import Check
 from rotator.exchange.faults import OF_ANOTHER_SENSOR, FaultKind, Missing
 from rotator.exchange.spoken import short_sender
 from rotator.views import lcd
@@ -72,7 +73,8 @@ def messages(path: Path) -> list[str]:
 
 
 def names_of_checks() -> list[str]:
-    return [check.name for check in (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)]
+    checks: tuple[Check[...], ...] = (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)
+    return [check.name for check in checks]
 
 
 def _clean(text: str) -> str:
