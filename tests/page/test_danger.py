@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.page.conftest import Station, headline, pair, violations
+from tests.page.sizes import misfits
 from tests.page.test_dashboard import PHONE, waits_for
 
 if TYPE_CHECKING:
@@ -50,6 +51,10 @@ def test_a_runaway_fills_the_view_and_promises_nothing_before_it_stands(
         " headers: {'Content-Type': 'application/json'}})).json()"
     )
     assert refused["error"].startswith("the cause is still there: CUT MOTOR POWER!")
+    if how:
+        other = visit(station, ".emergency", locale="de", color_scheme="dark")
+        found = misfits(other, "a runaway")
+        assert not found, "\n".join(found)
 
 
 def test_after_a_stop_what_was_tracked_goes_on_at_a_press_of_its_own(start: Start, visit: Visit) -> None:

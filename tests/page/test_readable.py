@@ -2,140 +2,167 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.page.conftest import Station, headline, pair, violations
+from benchmarks.sky_now import as_json, rises_in, satellite, sets_in
+from tests.page.conftest import Station, code_at_the_box, headline, pair
+from tests.page.sizes import misfits
+from tests.page.test_sky import COMPUTED_MS, LOCATOR, SITE
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 Start = Callable[..., Station]
 Visit = Callable[..., "Page"]
-SIZES = {"phone": (360, 740), "phone on its side": (844, 390), "tablet": (820, 1180), "wide": (1600, 900)}
-BUSY = """
+BUSY = f"""
 [station]
-locator = "JO62qm"
+locator = "{LOCATOR}"
 [mount]
 horizon = [[0, 5], [60, 12], [180, 3], [250, 15]]
 [[mount.forbidden]]
 name = "chimney"
 azimuth_deg = [290, 320]
 elevation_deg = [0, 35]
-"""
-
-
-ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
-SEES_SKY = f"""{BUSY}
 [sky]
-elements = ["{ELEMENTS}"]
+elements = ["FOLDER/made.json"]
+[[sky.follow]]
+name = "COMING"
 [[sky.follow]]
 name = "moon"
 """
+UP_S, SOON_S = 480.0, 1500.0
+PAIR = """code => fetch("/api/pair", { method: "POST", headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ code, name: "Handy" }) })"""
+PARK = "[id^=step-][id$=park_azimuth_deg]"
+HELP = {"doctor": ".doctor li", "wires": ".bytes", "log": ".log td", "files": ".files", "paired": ".paired li"}
+"""By the name in the address."""
 
 
-@pytest.mark.parametrize("light", ["light", "dark"])
-def test_axe_finds_nothing(start: Start, visit: Visit, light: str) -> None:
-    station = start(BUSY)
-    page = visit(station, color_scheme=light)
-    assert violations(page) == [], "looking on"
-    pair(page)
-    assert violations(page) == [], "paired"
-    page.get_by_role("button", name="To the park position").click()
-    assert violations(page) == [], "a question"
+def busy(folder: Path) -> str:
+    """A station with a satellite that is up now, one that is planned, a horizon and a forbidden sector."""
+    now_s = time.time()
+    made = (
+        satellite("GOING (AO-1)", 90_001, now_s, SITE, sets_in(now_s, UP_S)),
+        satellite("COMING", 90_002, now_s, SITE, rises_in(now_s, SOON_S)),
+    )
+    (folder / "made.json").write_text(as_json(made), encoding="utf-8")
+    return BUSY.replace("FOLDER", str(folder))
+
+
+def pair_unasked(page: Page) -> None:
+    """In any language: only the words of the form are left out."""
+    page.evaluate(PAIR, code_at_the_box(page))
+    page.reload()
+    page.locator(".jogpad").wait_for()
+
+
+def show(page: Page, view: str, shows: str) -> None:
+    page.evaluate("view => (location.hash = view)", view)
+    page.locator(shows).first.wait_for(timeout=COMPUTED_MS)
+
+
+def first_view(page: Page, tell: Callable[..., str]) -> Iterator[str]:
+    """By the class names of its parts: it is walked in two languages."""
+    page.locator(".up circle").first.wait_for(timeout=COMPUTED_MS)
+    yield "looking on"
+    page.locator(".pair .go").click()
+    page.locator(".pair .code").fill("000000")
+    page.locator(".pair form .go").click()
+    page.locator(".pair .said").filter(has_text=re.compile(".")).wait_for()
+    yield "a wrong code"
+    pair_unasked(page)
+    page.locator(".favourites .quiet").click()
+    page.locator(".favourites li").first.wait_for()
+    yield "the favourites are changed"
+    page.locator(".favourites .quiet").first.click()
+    page.locator(".upnow button").last.click(timeout=COMPUTED_MS)
+    page.locator(".picked").wait_for()
+    page.locator(".hand .orders > button").first.click()
+    page.locator(".hand .asks").wait_for()
+    yield "the first view, a satellite, a question"
     page.keyboard.press("Escape")
-    headline(page, "STOPPED by")
-    assert violations(page) == [], "stopped"
-    page.get_by_role("link", name="Help").click()
-    page.locator(".doctor li").first.wait_for()
-    assert violations(page) == [], "doctor"
-    page.get_by_role("link", name="Wires").click()
-    page.get_by_role("region", name="Bytes of the links").wait_for()
-    assert violations(page) == [], "wires"
-    page.get_by_role("link", name="Files").click()
-    page.get_by_role("link", name="Save a backup").wait_for()
-    assert violations(page) == [], "files"
-    page.get_by_role("link", name="Log").click()
-    page.locator(".log td", has_text="stopped by").first.wait_for()
-    assert violations(page) == [], "log"
-    page.locator(".connection a").click()
-    page.get_by_text("Paired browsers").wait_for()
-    assert violations(page) == [], "browsers"
-    page.get_by_role("link", name="the API").click()
+    page.locator(".troubles button").wait_for()
+    yield "stopped"
+    tell("resume")
+    page.locator(".troubles").wait_for(state="detached")
+
+
+def other_views(page: Page, tell: Callable[..., str]) -> Iterator[str]:
+    show(page, "sky", ".passes td")
+    page.locator(".timeline .bar").first.press("Enter")
+    page.locator(".timeline .chosen").wait_for()
+    yield "plan"
+    show(page, "pass", ".passmode")
+    tell("point", "180", "40")
+    page.locator(".nudge button:enabled").first.wait_for()
+    yield "pass"
+    tell("track", "off")
+    show(page, "setup", ".step")
+    yield "setup"
+    for step in page.locator(".step > summary").all():
+        step.press("Enter")
+    page.locator(".wiring svg").wait_for()
+    page.locator(PARK).fill("95")
+    page.locator(f".settings:has({PARK}) .actions .go").click()
+    page.locator(".proposed summary").press("Enter")
+    yield "all steps of setup, a change"
+    for view, shows in HELP.items():
+        show(page, view, shows)
+        yield view
+    show(page, "setup", ".step")
+    page.locator(".step > summary").nth(6).press("Enter")
+    page.locator(".step > summary").nth(7).press("Enter")
+    page.locator(PARK).fill("5000")
+    page.locator(f".settings:has({PARK}) .actions .go").click()
+    page.locator(".field .mistake").first.wait_for()
+    page.locator("#elements-from").fill("https://celestrak.org/NORAD/elements/gp.php?GROUP=amateur&FORMAT=json")
+    page.locator(".place .go").click()
+    page.locator(".place .proposed").wait_for()
+    yield "a mistake, and a change with long addresses"
+    page.locator(".step > summary").nth(6).press("Enter")
+    page.locator(".step > summary").nth(7).press("Enter")
+    page.locator(".step > summary").nth(4).press("Enter")
+    page.locator(".step[open] .go").last.click()
+    page.locator(".guide .jog").first.wait_for(timeout=COMPUTED_MS)
+    page.locator(".guide-top button").click()
+    page.locator(".guide .asks").wait_for()
+    yield "a calibration, and its end"
+    page.goto(f"{page.url.partition('#')[0]}api/")
     page.locator("summary", has_text="/api/point").click()
     page.get_by_text("clockwise from true north").wait_for()
-    assert violations(page) == [], "the API"
-    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the API"
+    yield "the API"
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_nothing_is_wider_than_the_screen_and_stop_is_on_it(start: Start, visit: Visit, size: str) -> None:
-    station = start(BUSY)
-    width, height = SIZES[size]
-    page = visit(station, viewport={"width": width, "height": height}, is_mobile="phone" in size, has_touch=True)
-    pair(page)
-    for view in ("Antenna", "Help", "Wires", "Log", "Files", "test"):
-        page.get_by_role("link", name=view).click()
-        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-        stop = page.locator("#stop").bounding_box()
-        assert stop is not None
-        assert stop["width"] == width
-        assert stop["y"] + stop["height"] == height
+@pytest.mark.parametrize(("language", "light"), [("en", "light"), ("de", "dark")])
+def test_every_view_fits_every_window(start: Start, visit: Visit, tmp_path: Path, language: str, light: str) -> None:
+    station = start(busy(tmp_path))
+    how = {"viewport": {"width": 1366, "height": 768}, "has_touch": True}
+    page = visit(station, locale=language, color_scheme=light, **how)
+    found = [
+        each
+        for views in (first_view, other_views)
+        for view in views(page, station.tell)
+        for each in misfits(page, view)
+    ]
+    assert not found, "\n".join(found)
 
 
-# By the letters of the view's link. Of the Plan the table of passes is waited for, of Setup every step is opened.
-VIEWS = {
-    "Antenna": ".board",
-    "Plan": ".passes td",
-    "Setup": ".step",
-    "Help": ".doctor li",
-    "Log": ".log td",
-    "Pass": ".passmode",
-}
-COMPUTED_MS = 150_000
-"""Passes and checks take their time on a busy machine."""
-BEYOND = """() => {
-    const width = document.documentElement.clientWidth, seen = [];
-    for (const one of document.querySelectorAll("body *:not(svg *)")) {
-        const { left, right, width: own } = one.getBoundingClientRect(), style = getComputedStyle(one);
-        if (!own || style.clipPath !== "none" || one.parentElement.closest("pre, .strip, .scroller")) continue;
-        const cut = one.matches("button, a, dd, dt, h1, h2, h3, p, td") && style.display !== "inline"
-            && one.scrollWidth > one.clientWidth + 1;
-        if (right > width + 1 || left < -1 || cut) seen.push(`${one.tagName}.${one.className}: ${one.textContent}`);
-    }
-    return seen;
-}"""
-"""What is beyond the window's sides, or cut at its own."""
-SMALL = """() => [...document.querySelectorAll("button, nav a")].filter((one) => one.checkVisibility()
-    && one.getBoundingClientRect().height < 43.9).map((one) => one.textContent)"""
-"""What a thumb misses."""
-
-
-@pytest.mark.parametrize(("width", "height"), [(320, 568), (390, 844)])
-def test_larger_text_leaves_stop_on_the_screen(start: Start, visit: Visit, width: int, height: int) -> None:
-    """As a person sets it in the phone; with a fault, which has the longest texts."""
-    station = start(SEES_SKY, "--fault", "azimuth-pot-open@1")
-    page = visit(station, viewport={"width": width, "height": height}, is_mobile=True, has_touch=True)
-    pair(page)
-    headline(page, "FAULT")
-    for view, shows in VIEWS.items():
-        page.get_by_role("link", name=view, exact=True).first.evaluate("link => link.click()")
-        page.locator(shows).first.wait_for(timeout=COMPUTED_MS)
-        for step in page.locator(".step > summary").all():
-            step.evaluate("summary => summary.click()")
-        assert page.evaluate(SMALL) == [], view
-        for percent in (100, 130, 200):
-            page.evaluate(f"document.documentElement.style.fontSize = '{percent}%'")
-            assert page.evaluate(BEYOND) == [], (view, percent)
-            stop = page.locator("#stop").bounding_box()
-            assert stop is not None
-            placed = stop["x"], stop["width"], round(stop["y"] + stop["height"])
-            assert placed == (0, width, height), (view, percent)
-            assert page.evaluate("visualViewport.width") == width, (view, percent)
-        page.evaluate("document.documentElement.style.fontSize = ''")
+def test_a_fault_fits_every_window(start: Start, visit: Visit) -> None:
+    """It has the longest texts."""
+    page = visit(start("", "--fault", "azimuth-pot-open@1"), locale="de")
+    page.locator(".troubles").wait_for()
+    pair_unasked(page)
+    found = misfits(page, "a fault")
+    page.evaluate("location.hash = 'pass'")
+    page.locator(".passmode").wait_for()
+    found += misfits(page, "a fault, at the antenna")
+    assert not found, "\n".join(found)
 
 
 def test_the_keyboard_alone_points_and_turns(start: Start, visit: Visit) -> None:

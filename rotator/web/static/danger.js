@@ -49,10 +49,10 @@ function Emergency({ now, axes, paired, say }) {
   const turns = axes.some((axis) => now.status[axis].by_itself_dps || now.status[axis].fault_present);
   return html`<section class="emergency" aria-label="Emergency"><div>
     <div role="alert"><b>Act now</b><h2>${now.status[axes[0]].fault.act_now ?? now.headline}</h2></div>
-    ${axes.map((axis) => html`<${Runaway} now=${now} axis=${axis} />`)}
     <ol><li>${turns ? "Switch the motors' supply off by hand, now." : "Make sure that the motors' supply is off."}</li>
       <li>Keep everybody away from the antenna until it stands.</li>
       <li>Then look for the cause, and repair it.</li></ol>
+    ${axes.map((axis) => html`<${Runaway} now=${now} axis=${axis} />`)}
     ${faulty(now).map((axis) => html`<p class="measured">${now.status[axis].fault.text.replace(`${now.status[axis].fault.act_now} `, "")}</p>`)}
     ${stopped(now)}<${Releases} now=${now} paired=${paired} say=${say} /></div></section>`;
 }

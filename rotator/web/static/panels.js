@@ -79,9 +79,9 @@ export function Strip({ now, paired, fresh, beside, said, say }) {
     watch.observe(document.querySelector(".headline"));
     return () => watch.disconnect();
   }, [beside]);
-  const quiet = beside && !said && !now.stopper && !now.status.azimuth.fault && !now.status.elevation.fault;
+  const wrong = now.stopper || now.status.azimuth.fault || now.status.elevation.fault, quiet = beside && !said && !wrong;
   const shown = quiet ? (inSight ? "idle" : "afloat") : "";
-  return html`<section class=${`strip ${beside ? "beside" : ""} ${shown}`} aria-label="Where the antenna points">
+  return html`<section class=${`strip ${beside ? "beside" : ""} ${shown}`} aria-label="Where the antenna points" tabindex=${wrong ? 0 : null}>
     <p class=${`glance ${now.mood} ${fresh ? "" : "old"}`} aria-hidden=${beside ? "true" : null}><b>${now.headline}</b>
       <span>${fitted(now.status).map((axis) => about(now, axis)).join(" / ")}</span></p>
     <${Troubles} now=${now} paired=${paired} say=${say} />
