@@ -107,7 +107,7 @@ def test_a_pass_is_told_by_a_finger_and_by_keys_and_is_tracked(start: Start, vis
     bar = page.locator(".timeline [data-key^=RIVAL]").first
     bar.wait_for(timeout=COMPUTED_MS)
     bar.tap()
-    page.locator(".chosen", has_text="In the plan: ").or_(page.locator(".chosen", has_text="left out: ")).wait_for()
+    page.locator(".chosen", has_text="In the plan: ").or_(page.locator(".chosen", has_text="Left out: ")).wait_for()
     bar.press("ArrowUp")
     page.locator(".chosen b", has_text="COMING").wait_for()
     page.keyboard.press("ArrowRight")

@@ -45,8 +45,8 @@ function Edited({ one, place, list, grab, put }) {
   return html`<li>
     <button type="button" class="handle" aria-label=${`${one.name}, place ${place + 1} of ${list.length}: drag, or move with the arrow keys`}
       onPointerDown=${(event) => grab(event, place)} onKeyDown=${(event) => keyed(event, place, list.length, (to) => put(moved(list, place, to)))}><span aria-hidden="true">⠿</span></button>
-    <input aria-label=${`Name of ${one.name}`} maxlength="30" defaultValue=${one.name} onChange=${set("name")} />
     <input aria-label=${`What ${one.name} points at`} maxlength="100" defaultValue=${one.target} onChange=${set("target")} />
+    <input aria-label=${`Name of ${one.name}`} maxlength="30" defaultValue=${one.name} onChange=${set("name")} />
     <button type="button" aria-label=${`${one.name} up`} disabled=${place === 0} onClick=${() => put(moved(list, place, place - 1))}>▲</button>
     <button type="button" aria-label=${`Remove ${one.name}`} onClick=${() => put(list.filter((each) => each !== one))}>×</button></li>`;
 }

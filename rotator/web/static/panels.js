@@ -28,7 +28,7 @@ export function Headline({ now, hello, next }) {
       ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
       ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
       ${who && html`<span>moved by <b>${who}</b></span>`}
-      ${now.starts != null && now.off_deg != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
+      ${tracks && now.starts != null && now.off_deg != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
     </p>
     <${Lamps} now=${now} again />
   </section>`;

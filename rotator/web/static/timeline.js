@@ -5,7 +5,7 @@ import { drag, keyed, moved } from "/drag.js";
 import { keep } from "/favourites.js";
 import { clock, how, useFollowed, usePasses } from "/plan.js";
 import { Orders } from "/orders.js";
-import { act, html, useEffect, useMemo, useRef, useState } from "/ui.js";
+import { act, html, intoSight, useEffect, useMemo, useRef, useState } from "/ui.js";
 
 const HOUR_MS = 3_600_000, HOURS = 25, LOOK_MS = 600_000, LEAST_DEG = 10, OTHERS = 8;
 const rad = (deg) => (deg * Math.PI) / 180;
@@ -61,8 +61,9 @@ function Bar({ pass, begin, chosen, reached, onChoose, onKey, onGrab }) {
 
 /** What is known of a pass, and what one may do with it. */
 function Chosen({ pass, rivals, now, hello, onFly, say }) {
-  const { paired } = hello, tracked = now.status.tracks?.name === pass.name;
-  return html`<div class="chosen"><p role="status"><b>${pass.name}</b> ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${pass.aos_az_deg == null ? "" : `, from ${Math.round(pass.aos_az_deg)}°`}${pass.los_az_deg == null ? "" : ` to ${Math.round(pass.los_az_deg)}°`}. ${pass.plan ? html`<span class=${state(pass)}>In the plan: ${how(pass.plan)}.</span>` : "Not in the plan."}</p>
+  const { paired } = hello, tracked = now.status.tracks?.name === pass.name, card = useRef(null);
+  useEffect(() => intoSight(card.current), [keyOf(pass)]);
+  return html`<div class="chosen" ref=${card}><p role="status"><b>${pass.name}</b> ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${pass.aos_az_deg == null ? "" : `, from ${Math.round(pass.aos_az_deg)}°`}${pass.los_az_deg == null ? "" : ` to ${Math.round(pass.los_az_deg)}°`}. ${pass.plan ? html`<span class=${state(pass)}>${pass.plan.flown ? html`In the plan: ${how(pass.plan)}.` : html`Left out: ${pass.plan.reason}.`}</span>` : "Not in the plan."}</p>
     ${paired && html`<div class="chips"><${Orders} now=${now} hello=${hello}><button type="button" aria-pressed=${tracked} onClick=${() => act(post("track", { target: pass.name }), say)}>${tracked ? `${pass.name} is tracked` : `Track ${pass.name}`}</button><//>
       <button type="button" onClick=${() => act(keep(pass.name.slice(0, 30), pass.name), say)}>Keep as a favourite</button>
       ${rivals.map((name) => html`<button type="button" key=${name} onClick=${() => onFly(name)}>${pass.plan.flown ? `Rather fly ${name}` : `Fly it rather than ${name}`}</button>`)}</div>`}</div>`;
@@ -137,7 +138,7 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
           onChoose=${() => choose(keyOf(each))} onKey=${(event) => barKey(event, index, number)} onGrab=${(event) => row.one && event.pointerType === "mouse" && grab(event, followed.indexOf(row.one))} />`)}</div></li>`)}</ol>
       <div class="behind front" aria-hidden="true"><i class="now" style=${{ left: share(at) }}></i></div>
     </div></div>`}
-    ${every.length > most && html`<p><button type="button" aria-expanded=${all} onClick=${() => showAll(!all)}>${all ? "Fewer satellites" : `${every.length - most} more satellites`}</button></p>`}
+    ${every.length > most && html`<p><button type="button" aria-expanded=${all} onClick=${() => showAll(!all)}>${all ? "Fewer satellites" : `Other satellites: ${every.length - most}`}</button></p>`}
     ${pass ? html`<${Chosen} pass=${pass} rivals=${rivalsOf(pass, passes)} now=${now} hello=${hello} say=${say}
       onFly=${(name) => (pass.plan.flown ? prefer(name, pass.name) : prefer(pass.name, name))} />`
     : rows.length > 0 && html`<p class="about">Press a bar to see more of a pass.${paired && followed.length > 1 ? " Drag the satellite that counts more to the top: where two are up at once, a minute of the first is worth more." : ""}</p>`}
