@@ -30,7 +30,7 @@ from rotator.assembly.buses import Buses
 from rotator.assembly.kinds.controller import controller_drive
 from rotator.assembly.kinds.moteus import moteus_bus, moteus_drive
 from rotator.assembly.sensors import compass_chip, sensor_chip
-from rotator.assembly.simulation import simulated_rotor
+from rotator.assembly.simulation import SimulatedStation
 from rotator.config.model import Config
 
 Bus = SmbusI2C
@@ -247,7 +247,7 @@ def simulated_chips(config: Config) -> Chips:
         def clock() -> float:
             return time.monotonic() + since_s
 
-        rotor = simulated_rotor(config, clock, None, (0.0, 0.0))
+        rotor = SimulatedStation(config, clock, None, (0.0, 0.0)).build()
         since_s = BOOTED_S
         return rotor
 

@@ -166,16 +166,6 @@ def keep_place(path: Path, rotor: SimRotor) -> None:
         write_whole(path, json.dumps([round(angle_deg, 2) for angle_deg in rotor.rests()]))
 
 
-def simulated_rotor(
-    config: Config,
-    clock: Callable[[], float],
-    bus_sleep: Callable[[float], None] | None,
-    start_deg: tuple[float, float],
-) -> SimRotor:
-    """The rotor that the file describes. `start_deg`: the start angles where the file has none."""
-    return SimulatedStation(config, clock, bus_sleep, start_deg).build()
-
-
 def _mounted(forward: str, up: str) -> Callable[..., tuple[float, float, float]]:
     """What each of a board's axes feels, mounted so, from what there is along the boom, across it, and to its left."""
 

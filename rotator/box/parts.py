@@ -128,7 +128,7 @@ def build_parts(config: Config, path: Path | None, station: Station, anew: Anew)
     tracking = build_tracking(config, loop, mount, before.state)
     pairings = build_pairings(config, tracking.clock_is_known)
     fetching = build_fetching(config, tracking.clock_is_known, tracking.read_again)
-    elements_server = build_elements_server(config, tracking.known_elements)
+    elements_server = build_elements_server(config, lambda: tracking.sky.elements)
     numbers = itertools.count(1)
     monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
 

@@ -26,7 +26,6 @@ from rotator.exchange.orders import Confirm
 from rotator.exchange.sources import Source
 from rotator.exchange.status import AxisStatus, Status
 from rotator.runtime.loop import ControlLoop
-from rotator.store.compass import KeptCompass
 from rotator.store.state import State
 
 log = logging.getLogger(__name__)
@@ -145,7 +144,7 @@ async def watch(
 def watch_at_start(config: Config, board: Board, loop: ControlLoop, state: State) -> Coroutine[Any, Any, None]:
     """What settles the axes that do not know their angles after power-on."""
     # A real chip must never get the corrections of a simulated one.
-    kept = KeptCompass(state) if config.keeps_files else None
+    kept = state if config.keeps_files else None
     reader = CompassReader(open_compass(config, board), time.monotonic, kept)
     start = CompassAtStart(north_facts(config, has_file=kept is not None))
     source = Source("compass")

@@ -13,7 +13,8 @@ from collections.abc import Callable
 from hw.ports import Compass, HardwareError
 from rotator.calibrating.bearing import CompassReading
 from rotator.runtime.own_thread import OwnThread
-from rotator.store.compass import KeptCompass
+from rotator.store.compass import COMPASS
+from rotator.store.state import State
 
 READ_EVERY_S = 0.1
 JOIN_S = 3.0
@@ -22,14 +23,15 @@ JOIN_S = 3.0
 class CompassReader(OwnThread):
     """Call `read` now and then, or `start` a thread that does. `latest` may be read from any thread."""
 
-    def __init__(self, compass: Compass, clock: Callable[[], float], file: KeptCompass | None) -> None:
+    def __init__(self, compass: Compass, clock: Callable[[], float], corrections: State | None) -> None:
+        """`corrections`: what remembers the compass's own; None: they are not kept."""
         super().__init__("compass", JOIN_S)
         self.latest: CompassReading | None = None
         self.messages: deque[str] = deque()
         """For the operator: whether the corrections were restored or saved."""
         self._compass = compass
         self._clock = clock
-        self._file = file
+        self._corrections = corrections
         self._restored = False
         self._save_wanted = threading.Event()
 
@@ -59,7 +61,7 @@ class CompassReader(OwnThread):
         if self._restored:
             return
         self._restored = True
-        offsets = self._file.load() if self._file else None
+        offsets = self._corrections.load(COMPASS) if self._corrections else None
         if offsets is not None:
             self._compass.restore(offsets)
             self.messages.append("The compass has been given back what it had learnt.")
@@ -72,10 +74,11 @@ class CompassReader(OwnThread):
         except HardwareError as fault:
             self.messages.append(f"   Not kept: {fault}.")
         else:
-            if self._file:
-                self._file.save(offsets)
-                saved = f"What the compass has learnt is kept in {self._file.path}"
-                self.messages.append(f"   {self._file.trouble or saved}.")
+            if state := self._corrections:
+                said = f"What the compass has learnt is kept in {state.path}"
+                if not state.keep(COMPASS, offsets):
+                    said = f"{state.path}: what the compass learnt cannot be kept: {state.trouble}"
+                self.messages.append(f"   {said}.")
         self._save_wanted.clear()
 
     def _run(self) -> None:

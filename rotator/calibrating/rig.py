@@ -36,7 +36,6 @@ from rotator.control.controller import Controller
 from rotator.exchange.sources import Source
 from rotator.exchange.status import AxisStatus
 from rotator.runtime.loop import ControlLoop
-from rotator.store.compass import KeptCompass
 from rotator.store.state import State
 
 CALIBRATE = Source("calibrate")
@@ -127,7 +126,7 @@ class NorthRig(Rig):
         self._opened = ExitStack()
         self._saving = False
         compass = open_compass(config, Board(station.world, self._opened, clock, sleep))
-        self.compass = CompassReader(compass, clock, KeptCompass(corrections) if corrections else None)
+        self.compass = CompassReader(compass, clock, corrections)
         self.loop = control_loop(config, guided_controller(config), station, clock)
         self.guide = NorthGuide(north_facts(config, has_file=corrections is not None))
 

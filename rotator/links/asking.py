@@ -10,7 +10,7 @@ import asyncio
 import logging
 from collections.abc import Callable
 
-from rotator.links.wire import Wire, reason
+from rotator.links.wire import Waiting, Wire, reason
 from rotator.protocols.session import Inquiry, NotUnderstood
 
 log = logging.getLogger(__name__)
@@ -22,7 +22,7 @@ FIRST_RETRY_S = 1.0
 LONGEST_RETRY_S = 10.0
 
 
-class AskingLink:
+class AskingLink(Waiting):
     """`inquiry` makes the protocol's side of a new connection. `every_s`: seconds between two questions."""
 
     def __init__(
@@ -49,9 +49,6 @@ class AskingLink:
         self._logged: str | None = None
         """The trouble in the last log line; empty: that line said that the server answers."""
 
-    async def open(self) -> None:
-        """Nothing to do: `run` waits for the server."""
-
     async def run(self) -> None:
         clock = asyncio.get_running_loop().time
         try:
@@ -66,9 +63,6 @@ class AskingLink:
                 self._retry_s = min(2 * self._retry_s, LONGEST_RETRY_S)
         finally:
             self.wire.state = "closed"
-
-    def close(self) -> None:
-        """Nothing to do: `run` closes what it has opened."""
 
     async def _connect(self) -> tuple[str, str]:
         """Connect and ask until the connection ends. Returns the reason, and a detail for the log."""

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from rotator.links.wire import Conversation, Wire
+from rotator.links.wire import Conversation, Waiting, Wire
 from rotator.protocols.session import Session
 from rotator.runtime.own_thread import aside
 
@@ -24,7 +24,7 @@ LOOK_EVERY_S = 0.5
 MOST_BYTES = 4096
 
 
-class FileLink:
+class FileLink(Waiting):
     """`session` makes the protocol's side of the link. `look_every_s`: the time between two reads, in seconds."""
 
     def __init__(
@@ -35,9 +35,6 @@ class FileLink:
         self._session = session
         self._look_every_s = look_every_s
         self._trouble: str | None = None
-
-    async def open(self) -> None:
-        """Nothing to do: `run` waits for the file."""
 
     async def run(self) -> None:
         conversation = Conversation(self._session(), self.wire, lambda _reply: None)
@@ -55,9 +52,6 @@ class FileLink:
         finally:
             conversation.close()
             self.wire.state = "closed"
-
-    def close(self) -> None:
-        """Nothing to do: `run` closes what it has opened."""
 
     def _tell(self, trouble: str) -> None:
         """Log a trouble once when it begins, and its end once. `trouble` empty: the file can be read."""

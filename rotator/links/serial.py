@@ -18,7 +18,7 @@ from typing import Any
 import serial
 
 from rotator.links.fd import converse, writer
-from rotator.links.wire import Conversation, Wire
+from rotator.links.wire import Conversation, Waiting, Wire
 from rotator.protocols.session import Session
 from rotator.runtime.own_thread import aside
 
@@ -28,7 +28,7 @@ RETRY_S = 1.0
 URL_POLL_S = 0.1
 
 
-class SerialLink:
+class SerialLink(Waiting):
     """`session` makes the protocol's side of the link. `retry_s`: the time between two attempts to open the port, by
     `opens`, which is pyserial's."""
 
@@ -51,9 +51,6 @@ class SerialLink:
         self._logged = ""
         """The trouble in the last warning; empty while the port is open."""
 
-    async def open(self) -> None:
-        """Nothing to do: `run` waits for the port."""
-
     async def run(self) -> None:
         while True:
             try:
@@ -71,9 +68,6 @@ class SerialLink:
                     self.wire.state = "closed"
                 self._tell(f"lost: {why}")
             await asyncio.sleep(self._retry_s)
-
-    def close(self) -> None:
-        """Nothing to do: `run` closes what it has opened."""
 
     async def _opened(self) -> Any:
         """Open it in a thread of its own: a URL whose machine is off takes seconds, and holds up no end of the box."""

@@ -64,6 +64,16 @@ class Wire:
         self.last_out = (self.last_out + data)[-KEPT_BYTES:]
 
 
+class Waiting:
+    """A link whose `run` waits for its other end, and closes what it has opened. Nothing is done before and after."""
+
+    async def open(self) -> None:
+        """The other end may come later."""
+
+    def close(self) -> None:
+        """`run` has ended by now."""
+
+
 class Conversation:
     """One connection: passes bytes to `session` and the replies to `write`, one call for each reply.
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 import logging
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
-from rotator.orbits.elements import Elements
 from rotator.runtime.own_thread import OwnThread
 from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
@@ -52,7 +51,7 @@ class TrackingThread(OwnThread):
         self.sky = sky
         self.priorities = priorities
         self.favourites = favourites
-        self._follower = follower
+        self.follower = follower
         self._listener = listener
         self._planner = planner
         self._reader = reader
@@ -80,18 +79,6 @@ class TrackingThread(OwnThread):
         # A simulated rotor may live at any time: then the clock counts as right.
         return Now(time.time(), self._steady_s(), self._clock.error_s if self.clock_is_known() else 0.0)
 
-    def known_elements(self) -> Sequence[Elements] | None:
-        """From any thread: as `KnownSky.elements`."""
-        return self.sky.elements
-
-    def upcoming(self) -> tuple[str, float] | None:
-        """From any thread: as `Follower.upcoming`."""
-        return self._follower.upcoming
-
-    def plan_again(self) -> None:
-        """From any thread: make the plan of many passes again. The present pass is flown to its end."""
-        self._follower.plan_again()
-
     def read_again(self) -> None:
         """From any thread: files of elements are new."""
         self._new_files = True
@@ -115,7 +102,7 @@ class TrackingThread(OwnThread):
         self._clock.look(self._steady_s())
         self._listener.step(self._now)
         self.tracker.step(self._now())
-        self._follower.step(self._now())
+        self.follower.step(self._now())
 
     def _failed(self, failure: Exception) -> None:
         """A bug of the program ends the tracking. The thread goes on, because a dead thread would answer nothing."""

@@ -125,15 +125,15 @@ def build_page(
         site = build_site(config.station)
         place = (site.latitude_deg, site.longitude_deg) if site else None
         passes, up, days = (
-            coming_passes(command(path) if path and site else None, time.monotonic, tracking.known_elements),
-            overhead(path if site else None, time.monotonic, tracking.known_elements),
-            coming_passes(plan_command(path) if path and site else None, time.monotonic, tracking.known_elements),
+            coming_passes(command(path) if path and site else None, time.monotonic, lambda: tracking.sky.elements),
+            overhead(path if site else None, time.monotonic, lambda: tracking.sky.elements),
+            coming_passes(plan_command(path) if path and site else None, time.monotonic, lambda: tracking.sky.elements),
         )
 
         def plan_again() -> None:
             passes.forget()
             days.forget()
-            tracking.plan_again()
+            tracking.follower.plan_again()
 
         def read_again() -> None:
             passes.forget()
@@ -144,7 +144,7 @@ def build_page(
         elements = ElementFiles(tracking.sky, uploads, fetches, config.sky.fetch, changed=read_again, utc=time.time)
         folder = Path(config.state.path).parent
         flown = FlownPictures(FlownPasses(folder), recorder, mount, lambda: loop.status, time.time)
-        webhook = Webhook(config.notify, lambda: news.step(loop.status, tracking.upcoming(), time.time()))
+        webhook = Webhook(config.notify, lambda: news.step(loop.status, tracking.follower.upcoming, time.time()))
         return PageParts(
             status=lambda: loop.status,
             client=lambda source: Client(loop, mount, source),

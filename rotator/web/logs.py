@@ -71,7 +71,7 @@ class WireLog:
         return Lines([line for _, line in kept], kept[-1][0] + 1, kept[0][0] - number)
 
 
-MOST_LINES, LONGEST_LINE = 500, 600
+MOST_LOG_LINES = 500
 Rank = Literal["note", "warning", "error"]
 _RANKS: dict[str, Rank] = {"D": "note", "I": "note", "W": "warning", "E": "error", "C": "error"}
 
@@ -85,7 +85,7 @@ class LogLines(logging.Handler):
 
     def __init__(self) -> None:
         super().__init__(logging.INFO)
-        self._lines: deque[tuple[float, Rank, str]] = deque(maxlen=MOST_LINES)
+        self._lines: deque[tuple[float, Rank, str]] = deque(maxlen=MOST_LOG_LINES)
 
     def keep(self) -> None:
         logging.getLogger().addHandler(self)

@@ -9,7 +9,7 @@ from firmware_sim.rotors.rotor import SimRotor
 from hw.buses.gpio import GpioInputs
 from hw.ports import Axis, Direction
 from rotator.assembly.hands import hands
-from rotator.assembly.simulation import simulated_rotor
+from rotator.assembly.simulation import SimulatedStation
 from rotator.config.load import parse
 from rotator.exchange.orders import Mode
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
@@ -20,7 +20,7 @@ FITTED = "[panel]\nmode_msb = 10\nmode_lsb = 9\nstop = 19\nazimuth_knob = 0\njog
 
 def world(file: str) -> tuple[SimRotor, SimClock]:
     clock = SimClock()
-    return simulated_rotor(parse(file, "box"), clock, None, (0.0, 0.0)), clock
+    return SimulatedStation(parse(file, "box"), clock, None, (0.0, 0.0)).build(), clock
 
 
 def test_each_part_moves() -> None:

@@ -18,18 +18,17 @@ from rotator.assembly.board import Board
 from rotator.assembly.calibration import open_compass
 from rotator.calibrating.compass import CompassReader
 from rotator.config.load import parse
-from rotator.store.compass import KeptCompass
 from rotator.store.state import State
 
 CONFIG = parse('[compass]\nkind = "bno055"\naddress = 0x29\n', "test")
 
 
-def fitted(clock: Any, sleep: Any, file: KeptCompass | None = None) -> tuple[CompassReader, SimRotor]:
+def fitted(clock: Any, sleep: Any, corrections: State | None = None) -> tuple[CompassReader, SimRotor]:
     """A boom at 40°, raised by 20°, with a compass on it."""
     world = SimServoRotor(ServoAxisSpec(0, 40.0), ServoAxisSpec(1, 20.0), clock)
     world.wire_bno055((3, 0x29), lambda azimuth_deg: azimuth_deg)
     board = Board(world, ExitStack(), clock, sleep)
-    return CompassReader(open_compass(CONFIG, board), clock, file), world
+    return CompassReader(open_compass(CONFIG, board), clock, corrections), world
 
 
 def test_it_reads_the_heading_and_the_calibration() -> None:
@@ -61,7 +60,7 @@ def test_a_missing_compass_is_a_problem_until_it_answers_again() -> None:
 
 def test_corrections_that_cannot_be_read_are_not_saved(tmp_path: Path) -> None:
     clock = SimClock()
-    reader, world = fitted(clock, clock.sleep, KeptCompass(State(tmp_path / "state.json")))
+    reader, world = fitted(clock, clock.sleep, State(tmp_path / "state.json"))
     reader.read()
     world.inject("compass-gone")
     reader.request_save()
@@ -69,6 +68,19 @@ def test_corrections_that_cannot_be_read_are_not_saved(tmp_path: Path) -> None:
     assert not reader.save_pending
     assert "Not kept: " in reader.messages.pop()
     assert not list(tmp_path.iterdir())
+
+
+def test_where_the_corrections_cannot_be_written_a_person_is_told_so(tmp_path: Path) -> None:
+    clock = SimClock()
+    path = tmp_path / "no folder" / "state.json"
+    path.parent.write_text("")  # a file where its folder should be: not even root writes there
+    reader, _ = fitted(clock, clock.sleep, State(path))
+    clock.sleep(1.0)
+    reader.request_save()
+    while reader.save_pending:
+        reader.read()
+        clock.sleep(1.0)
+    assert reader.messages.pop().startswith(f"   {path}: what the compass learnt cannot be kept: ")
 
 
 def test_its_thread_reads_until_it_is_stopped() -> None:

@@ -15,7 +15,7 @@ from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from rotator.assembly.chips import Chips, ask_in_step
-from rotator.assembly.simulation import simulated_rotor
+from rotator.assembly.simulation import SimulatedStation
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION, look_of
@@ -106,7 +106,7 @@ class Pi:
         """Another configuration, and the chips that fit it."""
         self.config = parse(f"{base}\n{more}", "test")
         clock = SimClock()
-        world = self.world = simulated_rotor(self.config, clock, None, (90.0, 45.0))
+        world = self.world = SimulatedStation(self.config, clock, None, (90.0, 45.0)).build()
         clock.sleep(1.0)  # a compass has to boot
         chips = Chips(
             lambda: world.gpio,

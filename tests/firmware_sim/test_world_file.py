@@ -12,7 +12,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.world_file import WorldState
 from hw.ports import Axis
-from rotator.assembly.simulation import simulated_rotor
+from rotator.assembly.simulation import SimulatedStation
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 
@@ -46,7 +46,7 @@ def test_a_coast_ends_without_the_program_and_at_the_stop_at_the_latest(started_
 def test_each_kind_stands_where_the_last_run_left_it(tmp_path: Path, kind: str) -> None:
     path = tmp_path / "world.json"
     world_file.write(path, replace(STATE, rests_deg=(123.4, 45.6), parts={}))
-    world = simulated_rotor(config_of(path, kind), SimClock(), None, (0.0, 0.0))
+    world = SimulatedStation(config_of(path, kind), SimClock(), None, (0.0, 0.0)).build()
     assert world.shafts() == pytest.approx((123.4, 45.6))
     assert WorldState.of(world, 0.0).rests_deg == pytest.approx((123.4, 45.6))
 
@@ -71,10 +71,10 @@ def test_a_counted_axis_of_a_kept_world_is_unknown_until_it_is_homed(tmp_path: P
 def test_a_moteus_without_power_forgets_its_turns_and_with_power_keeps_them(tmp_path: Path) -> None:
     path, clock = tmp_path / "world.json", SimClock()
     world_file.write(path, replace(STATE, rests_deg=(270.0, 0.0), parts={}))
-    cut = simulated_rotor(config_of(path, "moteus"), clock, None, (0.0, 0.0))
+    cut = SimulatedStation(config_of(path, "moteus"), clock, None, (0.0, 0.0)).build()
     forgotten = cut.kept()
     world_file.write(path, replace(STATE, rests_deg=(270.0, 0.0), parts={**forgotten, "azimuth_scale_rev": 0.0}))
-    kept = simulated_rotor(config_of(path, "moteus"), clock, None, (0.0, 0.0))
+    kept = SimulatedStation(config_of(path, "moteus"), clock, None, (0.0, 0.0)).build()
     assert cut.antenna() == pytest.approx(kept.antenna())
     assert abs(0.75 + forgotten["azimuth_scale_rev"]) < 0.051, "it knows the angle within a turn of the motor"
     assert kept.kept()["azimuth_scale_rev"] == 0.0

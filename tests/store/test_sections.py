@@ -11,7 +11,7 @@ from hw.ports import Axis
 from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import NO_TRIES, Tries, Trust
 from rotator.exchange.status import Latch
-from rotator.store.compass import COMPASS, KeptCompass
+from rotator.store.compass import COMPASS
 from rotator.store.favourites import FAVOURITES, FIRST, MOST, Favourite
 from rotator.store.knobs import KNOBS
 from rotator.store.latch import DAMAGED, LATCH
@@ -145,14 +145,3 @@ def test_damaged_tries_are_none(path: Path, key: str, value: object, caplog: pyt
     raw(path, "tries", {"axes": {"azimuth": TABLE | {"driven": False, key: value}}})
     assert KeptTries(State(path)).load() == {AZ: NO_TRIES, EL: NO_TRIES}
     assert "no motor counts as tried" in caplog.text
-
-
-def test_where_the_corrections_of_a_compass_cannot_be_written_a_person_is_told_so(path: Path) -> None:
-    path.parent.write_text("")  # a file where its folder should be: not even root writes there
-    kept = KeptCompass(State(path))
-    assert (kept.path, kept.trouble) == (path, "")
-    kept.save(bytes(22))
-    assert kept.trouble.startswith(f"{path}: what the compass learnt cannot be kept: ")
-    path.parent.unlink()
-    kept.save(bytes(22))
-    assert kept.trouble == ""

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rotator.web.logs import MOST_LINES, HttpLog, LogLines
+from rotator.web.logs import MOST_LOG_LINES, HttpLog, LogLines
 from tests.web.conftest import PATIENCE_S, Box, Start
 
 
@@ -23,11 +23,11 @@ def lines() -> Iterator[LogLines]:
 
 def test_the_latest_lines_are_kept_the_newest_first(lines: LogLines) -> None:
     log = logging.getLogger("rotator.test")
-    for number in range(MOST_LINES + 10):
+    for number in range(MOST_LOG_LINES + 10):
         log.warning("line %d\nits second line", number)
     told = lines.latest_first()
-    assert len(told) == MOST_LINES
-    assert told[0]["text"] == f"line {MOST_LINES + 9}"
+    assert len(told) == MOST_LOG_LINES
+    assert told[0]["text"] == f"line {MOST_LOG_LINES + 9}"
     assert told[0]["rank"] == "warning"
 
 

@@ -6,13 +6,13 @@ import threading
 import time
 
 from firmware_sim.rotors.rotor import SimRotor
-from rotator.assembly.simulation import simulated_rotor
+from rotator.assembly.simulation import SimulatedStation
 from tests.rotors.rig import configured
 
 
 def test_looking_at_servos_while_their_board_is_written_never_blocks() -> None:
     """Two threads take the locks of the rotor and of its chip at the same time, again and again."""
-    rotor: SimRotor = simulated_rotor(configured("servos"), time.monotonic, None, (90.0, 90.0))
+    rotor: SimRotor = SimulatedStation(configured("servos"), time.monotonic, None, (90.0, 90.0)).build()
 
     def look() -> None:
         for _ in range(3000):

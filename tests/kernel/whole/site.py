@@ -19,7 +19,7 @@ from typing import Self
 
 from firmware_sim.rotors.geared import RelayedRotor
 from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
-from rotator.assembly.simulation import simulated_rotor
+from rotator.assembly.simulation import SimulatedStation
 from rotator.config.load import parse
 from tests.kernel.bench.edges import EdgeRecorder
 from tests.kernel.bench.gpio import GpioChip, persisting
@@ -125,7 +125,7 @@ class Site:
         with ExitStack() as stack:
             stack.enter_context(persisting(True))
             self.chip = stack.enter_context(GpioChip())
-            self.world = simulated_rotor(parse(self._rotor, "rotor"), time.monotonic, None, self._start_deg)
+            self.world = SimulatedStation(parse(self._rotor, "rotor"), time.monotonic, None, self._start_deg).build()
             assert isinstance(self.world, RelayedRotor)
             self.adapter = stack.enter_context(I2CAdapter(self.world.bus))
             stack.enter_context(Plant(self.chip, self.world, (*RELAYS, MASTER), self._contacts))
