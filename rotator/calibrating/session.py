@@ -10,6 +10,7 @@ import asyncio
 import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractAsyncContextManager
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Protocol
 
@@ -52,6 +53,7 @@ class Screen(Protocol):
         """While it is open the state of the rig is drawn, and entries arrive in `typed`."""
 
 
+@dataclass(eq=False)
 class CalibrationSession:
     """`path`: the file that results are saved in; None: they are shown instead. `open_station` raises HardwareError.
 
@@ -59,37 +61,25 @@ class CalibrationSession:
     rigctld that hears it, `sim`, or None. `draw` gets the points with what is left at each.
     """
 
-    def __init__(
-        self,
-        config: Config,
-        path: Path | None,
-        screen: Screen,
-        open_station: Callable[[Config], Station],
-        on_open: Callable[[Station], None],
-        *,
-        target: Target | None = None,
-        utc: Callable[[], float] = time.time,
-        receiver: str | None = None,
-        draw: Callable[[Residuals], None] = lambda _shown: None,
-    ) -> None:
-        self._receiver = receiver
-        self._draw = draw
-        self._target = target
-        self._utc = utc
-        self._config = config
-        self._path = path
-        self._screen = screen
-        self._open_station = open_station
-        self._on_open = on_open
+    config: Config
+    path: Path | None
+    screen: Screen
+    open_station: Callable[[Config], Station]
+    on_open: Callable[[Station], None]
+    _: KW_ONLY
+    target: Target | None = None
+    utc: Callable[[], float] = time.time
+    receiver: str | None = None
+    draw: Callable[[Residuals], None] = lambda _shown: None
 
     async def run(self, tasks: Sequence[str], stop: asyncio.Event) -> bool:
         """`tasks`: names of axes, COMPASS, NORTH, SKY. Returns whether every one of them has a result that is saved."""
-        if self._config.rotor.hardware == "sim":
-            self._screen.show(SIMULATED)
+        if self.config.rotor.hardware == "sim":
+            self.screen.show(SIMULATED)
         for task in tasks:
-            station = self._open_station(self._config)
+            station = self.open_station(self.config)
             try:
-                self._on_open(station)
+                self.on_open(station)
                 result = await self._calibrate(task, station, stop)
             finally:
                 await asyncio.to_thread(station.close)
@@ -99,45 +89,45 @@ class CalibrationSession:
 
     def _rig(self, task: str, station: Station) -> Rig:
         if task == COMPASS:
-            return FieldRig(self._config, station, time.monotonic)
+            return FieldRig(self.config, station, time.monotonic)
         if task == NORTH:
             # A real chip must never get the corrections of a simulated one.
-            corrections = build_state(self._config, self._path) if self._config.keeps_files else None
-            return NorthRig(self._config, station, time.monotonic, time.sleep, corrections=corrections)
+            corrections = build_state(self.config, self.path) if self.config.keeps_files else None
+            return NorthRig(self.config, station, time.monotonic, time.sleep, corrections=corrections)
         if task == SKY:
-            assert self._target is not None, "the command names one"
-            return self._sky_rig(self._target, station)
-        return AxisRig(self._config, Axis(task), station, time.monotonic)
+            assert self.target is not None, "the command names one"
+            return self._sky_rig(self.target, station)
+        return AxisRig(self.config, Axis(task), station, time.monotonic)
 
     def _sky_rig(self, target: Target, station: Station) -> SkyRig:
         def source() -> tuple[float, float]:
-            sight = target.sight(self._utc())
+            sight = target.sight(self.utc())
             return sight.azimuth_deg, sight.elevation_deg
 
         receiver = None
-        if self._receiver is not None:
-            receiver = receiver_at(self._receiver, self._config, station, time.monotonic, source)
-        return SkyRig(self._config, station, time.monotonic, target, self._utc, receiver=receiver)
+        if self.receiver is not None:
+            receiver = receiver_at(self.receiver, self.config, station, time.monotonic, source)
+        return SkyRig(self.config, station, time.monotonic, target, self.utc, receiver=receiver)
 
     async def _calibrate(self, task: str, station: Station, stop: asyncio.Event) -> Result | None:
         """Run one guide to its end. The motors stand when it returns, and when it raises."""
         rig = self._rig(task, station)
-        engine, stops = Engine(rig.loop, station.rotor), Stops(self._config, rig.loop, station)
-        async with self._screen.open(rig):
+        engine, stops = Engine(rig.loop, station.rotor), Stops(self.config, rig.loop, station)
+        async with self.screen.open(rig):
             try:
                 ended = engine.start()
                 stops.start()
                 rig.start()
                 asked, told = "", False
                 while not (rig.guide.ended or stop.is_set() or ended.done()):
-                    if lines := rig.step(self._screen.typed.next(rig.guide)):
-                        self._screen.show(*lines)
+                    if lines := rig.step(self.screen.typed.next(rig.guide)):
+                        self.screen.show(*lines)
                     if rig.guide.prompt != asked:
                         asked = rig.guide.prompt
-                        self._screen.ask(asked)
+                        self.screen.ask(asked)
                     if stops.unreached and not told:
                         told = True
-                        self._screen.show(UNREACHED)
+                        self.screen.show(UNREACHED)
                     await asyncio.sleep(POLL_S)
             finally:
                 # The motors first: a compass that hangs takes seconds to stop.
@@ -153,27 +143,27 @@ class CalibrationSession:
         if failure is not None:
             raise failure
         if isinstance(rig, SkyRig) and rig.guide.residuals is not None:
-            await asyncio.to_thread(self._draw, rig.guide.residuals)
+            await asyncio.to_thread(self.draw, rig.guide.residuals)
         if not rig.guide.ended:
-            self._screen.show(f"Stopped: the motors stand, nothing of the {task} is saved.")
+            self.screen.show(f"Stopped: the motors stand, nothing of the {task} is saved.")
         return rig.guide.result
 
     def _keep(self, stopped: Latch) -> None:
         """A stop holds for the box that is started next, too."""
-        kept = KeptLatch(build_state(self._config, self._path))
+        kept = KeptLatch(build_state(self.config, self.path))
         kept.load()
         kept.save(stopped)
 
     async def _save(self, result: Result) -> bool:
         if isinstance(result, AngleConfirmed):
             return True
-        if self._path is None:
-            self._screen.show("No --config, so nothing is saved. In a file it would be:\n\n" + as_toml(result))
+        if self.path is None:
+            self.screen.show("No --config, so nothing is saved. In a file it would be:\n\n" + as_toml(result))
             return True
         try:
-            await asyncio.to_thread(save, result, self._path)
+            await asyncio.to_thread(save, result, self.path)
         except (OSError, ConfigError) as fault:
-            self._screen.show(f"It cannot be saved: {fault}. In the file it would be:\n\n{as_toml(result)}")
+            self.screen.show(f"It cannot be saved: {fault}. In the file it would be:\n\n{as_toml(result)}")
             return False
-        self._screen.show(saved_in(self._path))
+        self.screen.show(saved_in(self.path))
         return True

@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -24,31 +25,30 @@ LOOK_EVERY_S = 0.5
 MOST_BYTES = 4096
 
 
+@dataclass(eq=False)
 class FileLink(Waiting):
     """`session` makes the protocol's side of the link. `look_every_s`: the time between two reads, in seconds."""
 
-    def __init__(
-        self, wire: Wire, path: Path, session: Callable[[], Session], *, look_every_s: float = LOOK_EVERY_S
-    ) -> None:
-        self.wire = wire
-        self._path = path
-        self._session = session
-        self._look_every_s = look_every_s
-        self._trouble: str | None = None
+    wire: Wire
+    path: Path
+    session: Callable[[], Session]
+    _: KW_ONLY
+    look_every_s: float = LOOK_EVERY_S
+    _trouble: str | None = field(default=None, init=False)
 
     async def run(self) -> None:
-        conversation = Conversation(self._session(), self.wire, lambda _reply: None)
+        conversation = Conversation(self.session(), self.wire, lambda _reply: None)
         before: bytes | str | None = None
         try:
             while True:
                 # In a thread of its own, because a read from a lost network share may never return.
-                now = await aside(partial(_content, self._path), self.wire.name)
+                now = await aside(partial(_content, self.path), self.wire.name)
                 if now != before:
                     before = now
                     self._tell("" if isinstance(now, bytes) else now)
                     if isinstance(now, bytes):
                         conversation.received(now)
-                await asyncio.sleep(self._look_every_s)
+                await asyncio.sleep(self.look_every_s)
         finally:
             conversation.close()
             self.wire.state = "closed"
@@ -60,9 +60,9 @@ class FileLink(Waiting):
             return
         self._trouble = trouble
         if trouble:
-            log.warning("%s: %s cannot be used: %s; waiting for it", self.wire.name, self._path, trouble)
+            log.warning("%s: %s cannot be used: %s; waiting for it", self.wire.name, self.path, trouble)
         else:
-            log.info("%s: %s is there", self.wire.name, self._path)
+            log.info("%s: %s is there", self.wire.name, self.path)
 
 
 def _content(path: Path) -> bytes | str:

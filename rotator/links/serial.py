@@ -13,6 +13,7 @@ import os
 import threading
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
 import serial
@@ -28,28 +29,20 @@ RETRY_S = 1.0
 URL_POLL_S = 0.1
 
 
+@dataclass(eq=False)
 class SerialLink(Waiting):
     """`session` makes the protocol's side of the link. `retry_s`: the time between two attempts to open the port, by
     `opens`, which is pyserial's."""
 
-    def __init__(
-        self,
-        wire: Wire,
-        port: str,
-        baud: int,
-        session: Callable[[], Session],
-        *,
-        retry_s: float = RETRY_S,
-        opens: Callable[..., Any] = serial.serial_for_url,
-    ) -> None:
-        self.wire = wire
-        self._port = port
-        self._baud = baud
-        self._session = session
-        self._retry_s = retry_s
-        self._opens = opens
-        self._logged = ""
-        """The trouble in the last warning; empty while the port is open."""
+    wire: Wire
+    port: str
+    baud: int
+    session: Callable[[], Session]
+    _: KW_ONLY
+    retry_s: float = RETRY_S
+    opens: Callable[..., Any] = serial.serial_for_url
+    _logged: str = field(default="", init=False)
+    """The trouble in the last warning; empty while the port is open."""
 
     async def run(self) -> None:
         while True:
@@ -60,19 +53,19 @@ class SerialLink(Waiting):
             else:
                 self.wire.state = "open"
                 self._logged = ""
-                log.info("%s: %s open at %d baud", self.wire.name, self._port, self._baud)
+                log.info("%s: %s open at %d baud", self.wire.name, self.port, self.baud)
                 try:
                     why = await self._converse(port)
                 finally:
                     port.close()
                     self.wire.state = "closed"
                 self._tell(f"lost: {why}")
-            await asyncio.sleep(self._retry_s)
+            await asyncio.sleep(self.retry_s)
 
     async def _opened(self) -> Any:
         """Open it in a thread of its own: a URL whose machine is off takes seconds, and holds up no end of the box."""
         return await aside(
-            lambda: self._opens(self._port, self._baud, timeout=0), self.wire.name, lambda port: port.close()
+            lambda: self.opens(self.port, self.baud, timeout=0), self.wire.name, lambda port: port.close()
         )
 
     async def _converse(self, port: Any) -> str:
@@ -82,7 +75,7 @@ class SerialLink(Waiting):
         except (AttributeError, NotImplementedError, OSError):
             return await self._converse_by_thread(port)
         os.set_blocking(fd, False)
-        return await converse(fd, Conversation(self._session(), self.wire, writer(fd)))
+        return await converse(fd, Conversation(self.session(), self.wire, writer(fd)))
 
     async def _converse_by_thread(self, port: Any) -> str:
         """As `_converse`, for URLs without a file descriptor (rfc2217://, loop://): a thread waits for the bytes."""
@@ -109,7 +102,7 @@ class SerialLink(Waiting):
                 if data:
                     arrive(data)
 
-        conversation = Conversation(self._session(), self.wire, lambda reply: _write(port, reply))
+        conversation = Conversation(self.session(), self.wire, lambda reply: _write(port, reply))
         thread = threading.Thread(target=listen, name=self.wire.name, daemon=True)
         thread.start()
         try:
@@ -126,7 +119,7 @@ class SerialLink(Waiting):
     def _tell(self, text: str) -> None:
         """Log a trouble once when it begins."""
         if text != self._logged:
-            log.warning("%s: %s %s; waiting for it", self.wire.name, self._port, text)
+            log.warning("%s: %s %s; waiting for it", self.wire.name, self.port, text)
             self._logged = text
         self.wire.state = "waiting for it"
 

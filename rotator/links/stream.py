@@ -12,6 +12,7 @@ import re
 import socket
 import time
 from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass, field
 from typing import cast
 
 from rotator.links.wire import Conversation, Wire
@@ -48,6 +49,7 @@ class Beginning:
         return _BROWSER.match(self._bytes) is not None
 
 
+@dataclass(eq=False)
 class Clients:
     """`session` makes the protocol's side of a new connection.
 
@@ -56,25 +58,16 @@ class Clients:
     is dropped. A browser's connection is ended before its bytes are read, unless the protocol `speaks_http`.
     """
 
-    def __init__(
-        self,
-        wire: Wire,
-        session: Callable[[], Session],
-        most: int,
-        *,
-        allowed: Callable[[str], bool] = lambda _host: True,
-        makes_room: bool = False,
-        speaks_http: bool = False,
-    ) -> None:
-        self.wire = wire
-        self.session = session
-        self.speaks_http = speaks_http
-        self._most = most
-        self._allowed = allowed
-        self._makes_room = makes_room
-        self._connected: dict[_Client, None] = {}
-        """In the order of their last bytes: the client that has been silent longest comes first."""
-        self._complaints = LogLimit(time.monotonic)
+    wire: Wire
+    session: Callable[[], Session]
+    most: int
+    _: KW_ONLY
+    allowed: Callable[[str], bool] = lambda _host: True
+    makes_room: bool = False
+    speaks_http: bool = False
+    _connected: dict[_Client, None] = field(default_factory=dict, init=False)
+    """In the order of their last bytes: the client that has been silent longest comes first."""
+    _complaints: LogLimit = field(default_factory=lambda: LogLimit(time.monotonic), init=False)
 
     def __len__(self) -> int:
         return len(self._connected)
@@ -90,12 +83,12 @@ class Clients:
 
     def admit(self, client: _Client, host: str) -> bool:
         """Accept or refuse a client that has just connected. Returns whether it is accepted."""
-        if not self._allowed(host):
+        if not self.allowed(host):
             self.complain(f"{host} is not in allow: turned away")
             return False
-        if len(self._connected) >= self._most:
-            if not self._makes_room:
-                self.complain(f"{self._most} clients already, one more is turned away")
+        if len(self._connected) >= self.most:
+            if not self.makes_room:
+                self.complain(f"{self.most} clients already, one more is turned away")
                 return False
             silent = next(iter(self._connected))
             del self._connected[silent]

@@ -59,34 +59,29 @@ class Column:
         return text
 
 
+@dataclass(eq=False)
 class Framed:
     """A frame that `rich` can print. `rows` takes the cells and the rows inside the frame, and returns its rows.
 
     `drawn`: how a row is drawn, for a terminal that has few characters.
     """
 
-    def __init__(
-        self,
-        title: str,
-        rows: Callable[[int, int], Iterable[Row]],
-        drawn: Callable[[Text], Text] = lambda text: text,
-    ) -> None:
-        self._title = title
-        self._rows = rows
-        self._drawn = drawn
+    title: str
+    rows: Callable[[int, int], Iterable[Row]]
+    drawn: Callable[[Text], Text] = lambda text: text
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         width = options.max_width
         height = options.max_height - 2 if console.is_terminal else ENDLESS
-        rows = fewer(list(self._rows(width - 4, height)), height)
-        title = Text(f" {self._title} ")
+        rows = fewer(list(self.rows(width - 4, height)), height)
+        title = Text(f" {self.title} ")
         title.truncate(max(width - 4, 0), overflow="ellipsis")
-        yield self._drawn(Text("╭─") + title + Text("─" * (width - 3 - title.cell_len) + "╮"))
+        yield self.drawn(Text("╭─") + title + Text("─" * (width - 3 - title.cell_len) + "╮"))
         for row in rows:
             text = row.text.copy()
             text.truncate(width - 4, overflow="ellipsis", pad=True)
-            yield self._drawn(Text("│ ") + text + Text(" │"))
-        yield self._drawn(Text("╰" + "─" * (width - 2) + "╯"))
+            yield self.drawn(Text("│ ") + text + Text(" │"))
+        yield self.drawn(Text("╰" + "─" * (width - 2) + "╯"))
 
 
 def wrapped(text: str, width: int, style: str, rank: int) -> list[Row]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
+from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 from typing import Annotated
 
@@ -64,28 +65,20 @@ class _Forget(Sent):
 _FORGET = Body((_Forget, {"name": "mine.txt"}), hint="/api/elements lists them")
 
 
+@dataclass(eq=False)
 class ElementFiles:
     """`changed` is called when a file is new or removed. `fetch`: the addresses in the configuration."""
 
-    def __init__(
-        self,
-        sky: KnownSky,
-        uploads: Uploads,
-        fetches: FetchesFile,
-        fetch: Sequence[str],
-        *,
-        changed: Callable[[], None],
-        utc: Callable[[], float],
-    ) -> None:
-        self._sky = sky
-        self._uploads = uploads
-        self._fetches = fetches
-        self._fetch = fetch
-        self._changed = changed
-        self._utc = utc
-        self._reader = FileReader()
-        self._one = asyncio.Lock()
-        """Allows one file at a time: each takes memory and a core."""
+    sky: KnownSky
+    uploads: Uploads
+    fetches: FetchesFile
+    fetch: Sequence[str]
+    _: KW_ONLY
+    changed: Callable[[], None]
+    utc: Callable[[], float]
+    _reader: FileReader = field(default_factory=FileReader, init=False)
+    _one: asyncio.Lock = field(default_factory=asyncio.Lock, init=False)
+    """Allows one file at a time: each takes memory and a core."""
 
     def routes(self) -> Sequence[Route]:
         async def take(request: web.Request) -> _Kept:
@@ -95,19 +88,19 @@ class ElementFiles:
             async with self._one:
                 content = await bytes_of(request, MOST_BYTES)
                 try:
-                    kept = await asyncio.to_thread(self._uploads.put, name, content, self._faults)
+                    kept = await asyncio.to_thread(self.uploads.put, name, content, self._faults)
                 except NotKeptError as reason:
                     raise WrongValuesError(printable(str(reason))) from None
-            self._changed()
+            self.changed()
             return {"name": kept}
 
         async def remove(_request: web.Request, sent: _Forget) -> None:
             async with self._one:
                 try:
-                    await asyncio.to_thread(self._uploads.remove, sent["name"])
+                    await asyncio.to_thread(self.uploads.remove, sent["name"])
                 except NotKeptError as reason:
                     raise RefusedError(str(reason)) from None
-            self._changed()
+            self.changed()
 
         summary, name = (
             "Send a file of elements: taken whole or not at all",
@@ -137,17 +130,17 @@ class ElementFiles:
 
     def listed(self) -> _Elements:
         """Files and addresses, each with its satellites and the age of their elements in days."""
-        now_s, mine = self._utc(), {self._uploads.folder / name for name in self._uploads.names()}
+        now_s, mine = self.utc(), {self.uploads.folder / name for name in self.uploads.names()}
         files: list[_File] = [
             {"name": path.name, "uploaded": path in mine, **_ages(sets, now_s)}
-            for path, sets in self._sky.by_file.items()
+            for path, sets in self.sky.by_file.items()
         ]
-        asked = self._fetches.load() or {}
+        asked = self.fetches.load() or {}
         return {
-            "satellites": len(self._sky.elements or ()),
+            "satellites": len(self.sky.elements or ()),
             "files": files,
-            "faults": list(self._sky.faults),
-            "fetch": [_fetch(address, asked.get(address), now_s) for address in self._fetch],
+            "faults": list(self.sky.faults),
+            "fetch": [_fetch(address, asked.get(address), now_s) for address in self.fetch],
         }
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field
 from datetime import datetime
 from functools import partial
 from pathlib import Path
@@ -119,39 +120,31 @@ class _Order(Sent):
 _ORDER = Body((_Order, {"order": None}), hint="the order of the file; or each name of /api/followed once")
 
 
+@dataclass(eq=False)
 class Plan:
     """`changed` is called when the order has changed. `utc` gives seconds since 1970."""
 
-    def __init__(
-        self,
-        follow: Sequence[FollowTable],
-        sky: KnownSky,
-        priorities: Priorities,
-        passes: Computed,
-        *,
-        changed: Callable[[], None],
-        utc: Callable[[], float],
-    ) -> None:
-        self._follow = follow
-        self._sky = sky
-        self._priorities = priorities
-        self._passes = passes
-        self._changed = changed
-        self._utc = utc
-        self._next: tuple[str, Fields] = ("", {})
-        """The next pass as last sent, by its name and rise."""
+    follow: Sequence[FollowTable]
+    sky: KnownSky
+    priorities: Priorities
+    passes: Computed
+    _: KW_ONLY
+    changed: Callable[[], None]
+    utc: Callable[[], float]
+    _next: tuple[str, Fields] = field(default=("", {}), init=False)
+    """The next pass as last sent, by its name and rise."""
 
     def routes(self) -> Sequence[Route]:
         async def order(_request: web.Request, sent: _Order) -> None:
             names = sent["order"]
             change = self.as_written if names is None else partial(self.reorder, names)
             reason = await asyncio.to_thread(change)
-            self._changed()
+            self.changed()
             if reason:
                 raise RefusedError(reason)
 
         def bearing(request: web.Request) -> _Bearing | _None:
-            found = self._sky.place(request.query.get("to", "")[:MOST_WORDS])
+            found = self.sky.place(request.query.get("to", "")[:MOST_WORDS])
             if found is None:
                 return {}
             where = found.where
@@ -164,7 +157,7 @@ class Plan:
         day = "The passes of the next day, as `rotator sky passes --json`", ManyPasses
         anew = "What is followed in a new order: what stands first counts most"
         return (
-            get("/api/passes", lambda _: computed(self._passes.answer()), day, more=COMPUTING),
+            get("/api/passes", lambda _: computed(self.passes.answer()), day, more=COMPUTING),
             get("/api/next", lambda _: computed(self.upcoming()), following, more=COMPUTING),
             get("/api/followed", lambda _: {"followed": self.followed()}, followed),
             # Who reads it knows where the station is.
@@ -176,20 +169,20 @@ class Plan:
 
     def followed(self) -> list[_Followed]:
         """The targets of the configuration, the highest priority first."""
-        rows = [self._row(each) for each in self._follow]
+        rows = [self._row(each) for each in self.follow]
         return sorted(rows, key=lambda row: -row["priority"])
 
     def _row(self, each: FollowTable) -> _Followed:
         target, fault = "", ""
         try:
-            wanted = self._sky.find(each.name)
+            wanted = self.sky.find(each.name)
             target = "" if isinstance(wanted, Aim) else wanted.target().name
         except (Unknown, NotThere) as reason:
             fault = str(reason)
         return {
             "name": each.name,
             "target": target or each.name,
-            "priority": self._priorities.of(each.name, each.priority),
+            "priority": self.priorities.of(each.name, each.priority),
             "written": each.priority,
             "least_deg": each.min_culmination_deg,
             "fault": fault,
@@ -197,31 +190,31 @@ class Plan:
 
     def reorder(self, names: Sequence[str]) -> str:
         """Set the priorities by this order, the most important first. Returns why not; empty: done."""
-        written = {each.name: each.priority for each in self._follow}
+        written = {each.name: each.priority for each in self.follow}
         if sorted(names) != sorted(written):
             raise WrongValuesError("order must name each followed target once: GET /api/followed lists them")
-        inforce = [self._priorities.of(name, priority) for name, priority in written.items()]
+        inforce = [self.priorities.of(name, priority) for name, priority in written.items()]
         return self._put(dict(zip(names, ranked(inforce), strict=True)), written)
 
     def as_written(self) -> str:
         """Restore the priorities of the configuration."""
-        written = {each.name: each.priority for each in self._follow}
+        written = {each.name: each.priority for each in self.follow}
         return self._put(written, written)
 
     def _put(self, priorities: Mapping[str, float], written: Mapping[str, float]) -> str:
-        kept = self._priorities.change(priorities, written)
+        kept = self.priorities.change(priorities, written)
         return "" if kept else "the order counts, but it cannot be kept: the log tells why"
 
     # --- the next pass
 
     def upcoming(self) -> Fields | None:
         """The next pass of the plan, or the next good one without a plan, with its path; {}: none; None: ask again."""
-        if not self._sky.elements and not self._follow:
+        if not self.sky.elements and not self.follow:
             return {}
-        latest = self._passes.latest()
+        latest = self.passes.latest()
         if latest is None:
             return None
-        found = next_pass(latest.get("passes", []), self._utc())
+        found = next_pass(latest.get("passes", []), self.utc())
         if found is None:
             return {}
         key = f"{found['name']} {found['aos']}"
@@ -233,7 +226,7 @@ class Plan:
         """The directions of the pass; empty if its elements are no longer known."""
         begin_s, end_s = (datetime.fromisoformat(found[key]).timestamp() for key in ("aos", "los"))
         try:
-            wanted = self._sky.find(found["name"])
+            wanted = self.sky.find(found["name"])
             if isinstance(wanted, Aim):
                 return []
             target = wanted.target()
