@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass, field
 
 from rotator.links.wire import Waiting, Wire, reason
 from rotator.protocols.session import Inquiry, NotUnderstood
@@ -22,32 +23,28 @@ FIRST_RETRY_S = 1.0
 LONGEST_RETRY_S = 10.0
 
 
+@dataclass(eq=False)
 class AskingLink(Waiting):
     """`inquiry` makes the protocol's side of a new connection. `every_s`: seconds between two questions."""
 
-    def __init__(
-        self,
-        wire: Wire,
-        host: str,
-        port: int,
-        inquiry: Callable[[], Inquiry],
-        *,
-        every_s: float,
-        silence_s: float = SILENCE_S,
-        retry_s: float = FIRST_RETRY_S,
-    ) -> None:
-        self.wire = wire
-        self._host = host
-        self._port = port
-        self._inquiry = inquiry
-        self._asks: Inquiry | None = None
-        """What is asked; None: begin anew. It outlasts a connection that this side has cut for a bad answer, or for
+    wire: Wire
+    host: str
+    port: int
+    inquiry: Callable[[], Inquiry]
+    _: KW_ONLY
+    every_s: float
+    silence_s: float = SILENCE_S
+    retry_s: float = FIRST_RETRY_S
+    _asks: Inquiry | None = field(default=None, init=False)
+    """What is asked; None: begin anew. It outlasts a connection that this side has cut for a bad answer, or for
         none: the server has gone on meanwhile, and what it said before still counts."""
-        self._every_s = every_s
-        self._silence_s = silence_s
-        self._first_retry_s = self._retry_s = retry_s
-        self._logged: str | None = None
-        """The trouble in the last log line; empty: that line said that the server answers."""
+    _wait_s: float = field(init=False)
+    """Before it connects again."""
+    _logged: str | None = field(default=None, init=False)
+    """The trouble in the last log line; empty: that line said that the server answers."""
+
+    def __post_init__(self) -> None:
+        self._wait_s = self.retry_s
 
     async def run(self) -> None:
         clock = asyncio.get_running_loop().time
@@ -58,20 +55,20 @@ class AskingLink(Waiting):
                 self._tell(why, detail)
                 self.wire.state = "waiting for it"
                 if clock() - begun_s > LONGEST_RETRY_S:
-                    self._retry_s = self._first_retry_s
-                await asyncio.sleep(self._retry_s)
-                self._retry_s = min(2 * self._retry_s, LONGEST_RETRY_S)
+                    self._wait_s = self.retry_s
+                await asyncio.sleep(self._wait_s)
+                self._wait_s = min(2 * self._wait_s, LONGEST_RETRY_S)
         finally:
             self.wire.state = "closed"
 
     async def _connect(self) -> tuple[str, str]:
         """Connect and ask until the connection ends. Returns the reason, and a detail for the log."""
         try:
-            async with asyncio.timeout(self._silence_s):
-                reader, writer = await asyncio.open_connection(self._host, self._port)
+            async with asyncio.timeout(self.silence_s):
+                reader, writer = await asyncio.open_connection(self.host, self.port)
         except TimeoutError:
             self._asks = None  # it may have been started anew
-            return "cannot be reached", f": no answer within {self._silence_s:g} s"
+            return "cannot be reached", f": no answer within {self.silence_s:g} s"
         except (OSError, UnicodeError) as fault:
             self._asks = None
             return "cannot be reached", f": {reason(fault)}"
@@ -82,18 +79,18 @@ class AskingLink(Waiting):
 
     async def _keep_asking(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> tuple[str, str]:
         """Ask until the connection ends. Returns the reason, and a detail for the log."""
-        inquiry, self._asks = self._asks or self._inquiry(), None
+        inquiry, self._asks = self._asks or self.inquiry(), None
         clock = asyncio.get_running_loop().time
         while True:
             asked_s = clock()
             question = inquiry.ask()
             try:
-                async with asyncio.timeout(self._silence_s):
+                async with asyncio.timeout(self.silence_s):
                     writer.write(question)
                     await self._read_answer(inquiry, reader)
             except TimeoutError:
                 self._asks = inquiry
-                return f"gives no answer within {self._silence_s:g} s", ""
+                return f"gives no answer within {self.silence_s:g} s", ""
             except EOFError:
                 return "has closed the connection", ""
             except NotUnderstood as fault:
@@ -103,7 +100,7 @@ class AskingLink(Waiting):
                 return "is gone", f": {reason(fault)}"
             self.wire.state = "open"
             self._tell(inquiry.trouble, "")
-            await asyncio.sleep(max(0.0, asked_s + self._every_s - clock()))
+            await asyncio.sleep(max(0.0, asked_s + self.every_s - clock()))
 
     async def _read_answer(self, inquiry: Inquiry, reader: asyncio.StreamReader) -> None:
         """Read until the answer is complete. Raises EOFError, OSError, NotUnderstood."""
@@ -120,6 +117,6 @@ class AskingLink(Waiting):
             return
         self._logged = trouble
         if trouble:
-            log.warning("%s: %s:%d %s%s", self.wire.name, self._host, self._port, trouble, detail)
+            log.warning("%s: %s:%d %s%s", self.wire.name, self.host, self.port, trouble, detail)
         else:
-            log.info("%s: %s:%d answers", self.wire.name, self._host, self._port)
+            log.info("%s: %s:%d answers", self.wire.name, self.host, self.port)

@@ -13,7 +13,7 @@ import logging
 import socket
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
 from rotator.links.allowed import Allowed
@@ -53,48 +53,41 @@ class Report:
     due: Callable[[float], bytes | None]
 
 
+@dataclass(eq=False)
 class UdpLink:
     """`session` makes the protocol's side for a new sender.
 
     `answer_port`: the port on which senders listen for answers; None: the protocol has no answers.
     """
 
-    def __init__(
-        self,
-        wire: Wire,
-        host: str,
-        port: int,
-        session: Callable[[], Session],
-        *,
-        answer_port: int | None = None,
-        report: Report | None = None,
-        allowed: Allowed = Allowed(),  # noqa: B008 - it never changes
-        clock: Callable[[], float] = time.monotonic,
-    ) -> None:
-        self.wire = wire
-        self._host = host
-        self._port = port
-        self._session = session
-        self._answer_port = answer_port
-        self._report = report
-        self._allowed = allowed
-        self._clock = clock
-        self._complaints = LogLimit(clock)
-        self._senders: dict[str, _Sender] = {}
-        self._transport: asyncio.DatagramTransport | None = None
+    wire: Wire
+    host: str
+    port: int
+    session: Callable[[], Session]
+    _: KW_ONLY
+    answer_port: int | None = None
+    report: Report | None = None
+    allowed: Allowed = field(default_factory=Allowed)
+    clock: Callable[[], float] = time.monotonic
+    _complaints: LogLimit = field(init=False)
+    _senders: dict[str, _Sender] = field(default_factory=dict, init=False)
+    _transport: asyncio.DatagramTransport | None = field(default=None, init=False)
+
+    def __post_init__(self) -> None:
+        self._complaints = LogLimit(self.clock)
 
     async def open(self) -> None:
         """Raises LinkError."""
         try:
             transport, _ = await asyncio.get_running_loop().create_datagram_endpoint(
                 lambda: _Socket(self.received, self._failed),
-                local_addr=(self._host, self._port),
+                local_addr=(self.host, self.port),
                 # A name such as localhost may stand for both families; the programs that send here use IPv4 only.
-                family=socket.AF_INET6 if ":" in self._host else socket.AF_INET,
+                family=socket.AF_INET6 if ":" in self.host else socket.AF_INET,
                 allow_broadcast=True,
             )
         except (OSError, UnicodeError) as fault:
-            raise LinkError(cannot_listen(fault, self._host, self._port)) from fault
+            raise LinkError(cannot_listen(fault, self.host, self.port)) from fault
         self._transport = transport
         self.wire.state = "listening"
 
@@ -119,7 +112,7 @@ class UdpLink:
     def received(self, data: bytes, address: Address) -> None:
         """Pass one datagram from `address` to its sender's conversation."""
         host = str(address[0])
-        if not self._allowed(host):
+        if not self.allowed(host):
             self._complain(f"{host} is not in allow: not heard")
             return
         if len(data) > MOST_BYTES and STOP in data.upper():
@@ -132,28 +125,28 @@ class UdpLink:
             if len(self._senders) >= MOST_SENDERS:
                 self._complain(f"{MOST_SENDERS} senders already, {host} is not heard")
                 return
-            conversation = Conversation(self._session(), self.wire, lambda reply: self._answer(reply, address))
-            sender = self._senders[host] = _Sender(conversation, self._clock())
+            conversation = Conversation(self.session(), self.wire, lambda reply: self._answer(reply, address))
+            sender = self._senders[host] = _Sender(conversation, self.clock())
             self._note()
-        sender.heard_s = self._clock()
+        sender.heard_s = self.clock()
         sender.conversation.received(data)
 
     def _answer(self, reply: bytes, address: Address) -> None:
-        if self._transport is not None and self._answer_port is not None:
-            self._transport.sendto(reply, (address[0], self._answer_port, *address[2:]))
+        if self._transport is not None and self.answer_port is not None:
+            self._transport.sendto(reply, (address[0], self.answer_port, *address[2:]))
 
     def _send_report(self) -> None:
         """Send the report's datagram, if one is due."""
-        if self._report is None or self._transport is None:
+        if self.report is None or self._transport is None:
             return
-        if datagram := self._report.due(self._clock()):
-            self._transport.sendto(datagram, self._report.to)
+        if datagram := self.report.due(self.clock()):
+            self._transport.sendto(datagram, self.report.to)
 
     def _failed(self, fault: OSError) -> None:
         self._complain(f"cannot send: {reason(fault)}")
 
     def _forget_the_silent(self) -> None:
-        now_s = self._clock()
+        now_s = self.clock()
         for host, sender in list(self._senders.items()):
             if now_s - sender.heard_s >= FORGOTTEN_AFTER_S:
                 sender.conversation.close()

@@ -12,7 +12,7 @@ import hashlib
 import logging
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from typing import Annotated
 
@@ -39,24 +39,19 @@ _STYLE = re.compile(r"<style>(.*?)</style>", re.DOTALL)
 _Flown = TypedDict("_Flown", {"flown": list[FlownPass], "pictures": Annotated[int, the("so many have a picture")]})
 
 
+@dataclass(eq=False)
 class FlownPictures:
     """`status` gives the latest status. `utc` gives seconds since 1970."""
 
-    def __init__(
-        self,
-        kept: FlownPasses,
-        recorder: Recorder,
-        mount: Mount,
-        status: Callable[[], Status],
-        utc: Callable[[], float],
-    ) -> None:
-        self._kept = kept
-        self._recorder = recorder
-        self._mount = mount
-        self._status = status
-        self._utc = utc
-        recorder.over = self._take
-        self._over: list[Record] = []
+    kept: FlownPasses
+    recorder: Recorder
+    mount: Mount
+    status: Callable[[], Status]
+    utc: Callable[[], float]
+    _over: list[Record] = field(default_factory=list, init=False)
+
+    def __post_init__(self) -> None:
+        self.recorder.over = self._take
 
     def routes(self) -> Sequence[Route]:
         async def kept(request: web.Request, read: Callable[[str], str | None]) -> str:
@@ -69,12 +64,12 @@ class FlownPictures:
             return text
 
         async def picture(request: web.Request) -> web.StreamResponse:
-            svg = await kept(request, self._kept.picture)
+            svg = await kept(request, self.kept.picture)
             headers = {"Content-Security-Policy": policy(svg), **_A_DAY}
             return web.Response(text=svg, content_type=SVG["contentMediaType"], headers=headers)
 
         async def table(request: web.Request) -> web.StreamResponse:
-            text = await kept(request, self._kept.table)
+            text = await kept(request, self.kept.table)
             return web.Response(text=text, content_type=TABLE["contentMediaType"], headers=_A_DAY)
 
         named = {"file": in_address("its name, as in /api/flown", "20260401-101500-iss.svg")}
@@ -82,7 +77,7 @@ class FlownPictures:
         return (
             get(
                 "/api/flown",
-                lambda _: {"flown": [asdict(each) for each in self._kept.passes], "pictures": MOST},
+                lambda _: {"flown": [asdict(each) for each in self.kept.passes], "pictures": MOST},
                 ("The passes of the last weeks, the latest first, and the figures of each", _Flown),
             ),
             get(
@@ -104,7 +99,7 @@ class FlownPictures:
     async def run(self) -> None:
         """Watch each status, and draw each pass that is over, until cancelled."""
         while True:
-            self._recorder.look(self._status())
+            self.recorder.look(self.status())
             while self._over:
                 record = self._over.pop(0)
                 try:
@@ -118,7 +113,7 @@ class FlownPictures:
         self._over.append(record)
 
     def _keep(self, record: Record) -> None:
-        begin_utc_s = self._utc() - (self._status().at_s - record.begin_s)
+        begin_utc_s = self.utc() - (self.status().at_s - record.begin_s)
         flown = FlownPass(
             file=picture_name(record.name, begin_utc_s),
             name=record.name[:LONGEST_NAME],
@@ -134,8 +129,8 @@ class FlownPictures:
         )
         when = datetime.fromtimestamp(begin_utc_s, UTC)
         antenna = Flown("antenna as measured", "blue", record.trace, record, record.clicks_s)
-        drawn = draw(record.name, [antenna], self._mount, f"{when:%d %b %Y %H:%M} UTC")
-        self._kept.keep(flown, drawn, csv_of(record.trace, begin_utc_s))
+        drawn = draw(record.name, [antenna], self.mount, f"{when:%d %b %Y %H:%M} UTC")
+        self.kept.keep(flown, drawn, csv_of(record.trace, begin_utc_s))
 
 
 COLUMNS = "utc,t,target_az,target_el,antenna_az,antenna_el,off_deg,az_drive,el_drive"

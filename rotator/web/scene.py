@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import KW_ONLY, asdict, dataclass, field, replace
 from typing import Annotated, Any, Literal
 
 from typing_extensions import TypedDict
@@ -94,6 +94,7 @@ class Picture(TypedDict):
     links: list[_Link]
 
 
+@dataclass(eq=False)
 class Scene:
     """`status` gives the latest status. `lcd` gives the rows of the display, with a code covered.
 
@@ -101,33 +102,25 @@ class Scene:
     `goes_on_with`: as `Tracker.goes_on_with`. `utc`: seconds since 1970 by the box's clock, and whether that is right.
     """
 
-    def __init__(
-        self,
-        status: Callable[[], Status],
-        lcd: Callable[[], Sequence[str]],
-        wires: Sequence[Wire],
-        named: Callable[[int], str],
-        tracks: Callable[[], str],
-        *,
-        goes_on_with: Callable[[], str] = lambda: "",
-        utc: Callable[[], float],
-        clock_is_known: Callable[[], bool],
-    ) -> None:
-        self._status = status
-        self._lcd = lcd
-        self._wires = wires
-        self._named = named
-        self._tracks = tracks
-        self._goes_on_with = goes_on_with
-        self._utc = utc
-        self._clock_is_known = clock_is_known
-        self.past = Past(status)
-        self._path = FlightPath("", "", [])
-        self._counting = threading.Lock()
-        """Orders come from several threads, some at the same moment."""
-        self._flights = 0
-        self.stops = 0
-        """The number of stops by a person since the start of the program."""
+    status: Callable[[], Status]
+    lcd: Callable[[], Sequence[str]]
+    wires: Sequence[Wire]
+    named: Callable[[int], str]
+    tracks: Callable[[], str]
+    _: KW_ONLY
+    goes_on_with: Callable[[], str] = lambda: ""
+    utc: Callable[[], float]
+    clock_is_known: Callable[[], bool]
+    past: Past = field(init=False)
+    _path: FlightPath = field(default_factory=lambda: FlightPath("", "", []), init=False)
+    _counting: threading.Lock = field(default_factory=threading.Lock, init=False)
+    """Orders come from several threads, some at the same moment."""
+    _flights: int = field(default=0, init=False)
+    stops: int = field(default=0, init=False)
+    """The number of stops by a person since the start of the program."""
+
+    def __post_init__(self) -> None:
+        self.past = Past(self.status)
 
     def note_order(self, order: object) -> None:
         """Count stops, and take the path of the pass from a flight. Called from any thread."""
@@ -146,7 +139,7 @@ class Scene:
         return asdict(self._path)
 
     def now(self) -> Picture:
-        status = self._status()
+        status = self.status()
         named_status = self._with_names(status)
         headline, style = words.headline(named_status)
         flown = status.flown
@@ -164,27 +157,27 @@ class Scene:
             "readings": [_short(axis.raw, 4) for axis in (status.azimuth, status.elevation)],
             "off_deg": _short(off_deg(status), 2),
             "starts": _starts(status),
-            "tracking": self.with_names(self._tracks()),
-            "goes_on_with": self._goes_on_with(),
+            "tracking": self.with_names(self.tracks()),
+            "goes_on_with": self.goes_on_with(),
             "rise_or_set": words.rise_or_set(flown, status.at_s) + flown.error_text if flown else "",
             "path": self._path.key if flown and flown.name == self._path.name else "",
             "stops": self.stops,
-            "utc_s": round(self._utc(), 2),
-            "clock_known": self._clock_is_known(),
+            "utc_s": round(self.utc(), 2),
+            "clock_known": self.clock_is_known(),
             "lamps": {
                 "cw": _lamp(status.azimuth, Direction.PLUS),
                 "ccw": _lamp(status.azimuth, Direction.MINUS),
                 "up": _lamp(status.elevation, Direction.PLUS),
                 "down": _lamp(status.elevation, Direction.MINUS),
             },
-            "lcd": list(self._lcd()),
+            "lcd": list(self.lcd()),
             "mover": named_status.controlled_by,
             "holder": named_status.held_by,
             "stopper": named_status.latched,
             "mode_by": named_status.mode_by,
             "mode_switch": status.mode_switch,
             "notes": [*named_status.notices, *words.notes(status), *words.lacks(status), *status.stays],
-            "links": [_link(wire) for wire in self._wires],
+            "links": [_link(wire) for wire in self.wires],
         }
 
     def _with_names(self, status: Status) -> Status:
@@ -208,7 +201,7 @@ class Scene:
         return spoken(_PAGE.sub(lambda found: self._name(found[1]), text))
 
     def _name(self, number: str | None) -> str:
-        return (self._named(int(number)) if number else "") or "the page"
+        return (self.named(int(number)) if number else "") or "the page"
 
 
 def _starts(status: Status) -> int | None:
