@@ -18,9 +18,8 @@ from benchmarks.passes import mean
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.flight import Summary, fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, read_pass
-from rotator.rehearsal.summary import Summary
 from rotator.views.trace import Sample
 
 AWAY_DEG = 10.0

@@ -18,9 +18,8 @@ from pathlib import Path
 
 from benchmarks.picture import FIGURES, kept
 from rotator.config.load import parse
-from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.flight import Summary, fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, read_pass
-from rotator.rehearsal.summary import Summary
 
 OPTIMUM = Path(__file__).parent.parent / "tests" / "passes" / "optimum.json"
 TOLERANCES_DEG = (4.0, 2.0, 1.0)

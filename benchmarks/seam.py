@@ -24,9 +24,8 @@ from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.passes import passes
 from rotator.orbits.satellite import Satellite
-from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.flight import SAMPLE_S, fly, plant_maker
 from rotator.rehearsal.passes import Pass
-from rotator.rehearsal.summary import SAMPLE_S
 from rotator.views.trace import SETTLING_S, Sample
 
 PASSES, SEED = 20, 44

@@ -19,9 +19,8 @@ from rotator.cli.rehearse import simulated
 from rotator.config.axes import SpeedTable
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.flight import Summary, fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
-from rotator.rehearsal.summary import Summary
 
 TOLERANCE_DEG, TRUE_LAG_S = 1.0, 0.5
 TARGETS_DEG = (90.0, 150.0, 120.0, 135.0, 300.0, 292.0, 200.0)

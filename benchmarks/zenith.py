@@ -21,9 +21,8 @@ from rotator.orbits.earth import Site
 from rotator.orbits.passes import passes
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.flight import Summary, fly, plant_maker
 from rotator.rehearsal.passes import Pass
-from rotator.rehearsal.summary import Summary
 
 PASSES, SEED, SATELLITES = 20, 85, 30
 LEAST_DEG, WORST_DEG = 85.0, 6.0

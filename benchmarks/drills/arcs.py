@@ -17,8 +17,7 @@ from rotator.exchange.flight_order import Fly
 from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.earth import Site
-from rotator.tracking.next_flight import NextFlight, Now, Wanted
-from rotator.tracking.next_followed import Upcoming, WantedOften
+from rotator.tracking.next_flight import NextFlight, Now, Upcoming, Wanted, WantedOften
 from rotator.tracking.planned import SPARE_S
 
 SITE = Site(0.0, 0.0, 0.0)

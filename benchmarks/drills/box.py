@@ -36,10 +36,9 @@ from rotator.protocols.panel_words import parse_hand
 from rotator.protocols.session import Session
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.autosave import Autosave
-from rotator.runtime.card_watch import CardWatch
 from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
-from rotator.runtime.keeping import Keeping
+from rotator.runtime.keeping import CardWatch, Keeping
 from rotator.runtime.loop import ControlLoop
 from rotator.store import counts
 from rotator.store.latch import KeptLatch

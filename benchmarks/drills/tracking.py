@@ -23,8 +23,7 @@ from rotator.exchange.sources import Source
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.follower import Follower
 from rotator.tracking.listener import LED_S
-from rotator.tracking.next_flight import NextFlight, Now, Wanted
-from rotator.tracking.next_followed import Upcoming, WantedOften
+from rotator.tracking.next_flight import NextFlight, Now, Upcoming, Wanted, WantedOften
 from rotator.tracking.program import Program, program_flight
 from rotator.tracking.thread import LOOK_S
 from rotator.tracking.tracker import Tracker

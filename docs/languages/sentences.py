@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "": (
         *("rotator/control", "rotator/exchange", "rotator/rotors", "rotator/tracking", "rotator/views/words.py"),
-        *("rotator/runtime/card_watch.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
+        *("rotator/runtime/keeping.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
         *("rotator/web", "rotator/links/wire.py"),
     ),
     "setup": (

@@ -1,7 +1,7 @@
-"""Lines and buses, opened when a part asks for them and closed together.
+"""Lines and buses, opened when a part asks for them and closed together: of this Pi, or of the simulated one.
 
-Part of the composition root. Knows the drivers of lines, I2C and SPI. Does not know which parts are connected, nor
-whether the buses are real: its arguments decide that.
+Part of the composition root. Knows the drivers of lines, I2C and SPI, and for a station the package or the simulator
+behind each. Does not know which parts are connected.
 """
 
 from __future__ import annotations
@@ -10,9 +10,10 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from typing import Any
 
-from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioInputs, GpioOutputs, NoHeaderError, find_chip
-from hw.buses.i2c import SmbusI2C
-from hw.buses.spi import SO, KernelSpi, LineSpi, SpiBus
+from firmware_sim.rotors.rotor import SimRotor
+from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioInputs, GpioOutputs, NoHeaderError, find_chip, real_gpiod
+from hw.buses.i2c import SmbusI2C, open_bus
+from hw.buses.spi import SO, KernelSpi, LineSpi, SpiBus, real_spidev
 from hw.ports import HardwareError
 from rotator.config.chips import KERNEL_SELECTS, SpiUse
 
@@ -108,3 +109,32 @@ class Buses:
         spi = KernelSpi(self._spidev(), 0, selects, mode=use.mode, speed_hz=use.speed_hz)
         self.opened.callback(spi.close)
         return spi
+
+
+class Board(Buses):
+    """`world`: the simulated rotor with its Pi; None: the real one. `opened` closes everything in the end.
+
+    `chip`: the path of the GPIO chip, where the file says it. Raises HardwareError.
+    """
+
+    def __init__(
+        self,
+        world: SimRotor | None,
+        opened: ExitStack,
+        clock: Callable[[], float],
+        sleep: Callable[[float], None],
+        *,
+        chip: str | None = None,
+    ) -> None:
+        gpiod: Any = world.gpio if world else real_gpiod()
+        super().__init__(
+            opened,
+            gpio=lambda: gpiod,
+            paths=world.gpio.paths() if world else None,
+            open_bus=(lambda number: SmbusI2C(world.i2c(number), "simulated bus")) if world else open_bus,
+            spidev=(lambda: world.spidev) if world else real_spidev,
+            clock=clock,
+            sleep=sleep,
+            chip=chip,
+        )
+        self.world = world

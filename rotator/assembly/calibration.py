@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import Axis, Compass, HardwareError
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.assembly.sensors import compass_chip
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.config.model import Config

@@ -12,7 +12,7 @@ from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
 from hw.ports import AngleSensor, Axis
 from hw.sensors.pot import PotSensor, Reference
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.config.model import Config
 from rotator.exchange.orders import Order
 from rotator.exchange.status import Status
@@ -20,7 +20,7 @@ from rotator.panel.inputs import KnobWiring
 from rotator.panel.lights import LightWiring
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
-from rotator.store.knobs import KNOBS
+from rotator.store.learnt import KNOBS
 from rotator.store.state import State
 
 LAMP_TEST_S = 1.0

@@ -13,7 +13,7 @@ from hw.ports import AngleSensor, Axis, Direction, HardwareError, LeaseWatch
 from hw.sensors.switches import LimitSwitches
 from hw.sensors.turns import Turns
 from rotator.assembly.adc import Converter, open_adc
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.assembly.kept_files import build_modelled_file
 from rotator.assembly.sensors import sensor_chip
 from rotator.assembly.settings import build_offsets

@@ -20,7 +20,7 @@ from hw.ports import CharacterDisplay, HardwareError, LeaseWatch
 from hw.safety.heartbeat import Heartbeat
 from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import Sentinel
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.assembly.kinds import builder
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulation import PLACE_FILE, SimulatedStation, keep_place, kept_place

@@ -29,11 +29,10 @@ from rotator.runtime.loop import ControlLoop
 from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
 from rotator.store.state import State
-from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
-from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.known_sky import FileReader, KnownSky
 from rotator.tracking.listener import StreamListener
-from rotator.tracking.next_followed import WantedOften
+from rotator.tracking.next_flight import WantedOften
 from rotator.tracking.planner import ProcessPlanner
 from rotator.tracking.ports import TRACK
 from rotator.tracking.system_clock import SystemClock

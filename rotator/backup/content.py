@@ -24,10 +24,9 @@ from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
 from rotator.exchange.foreign import json_of
 from rotator.store import learnt
-from rotator.store.compass import COMPASS
 from rotator.store.favourites import FAVOURITES
 from rotator.store.json_file import Form, LaterFormError, decode, encode
-from rotator.store.knobs import KNOBS
+from rotator.store.learnt import COMPASS, KNOBS
 from rotator.store.plain import read_plain
 from rotator.store.priorities import PRIORITIES
 from rotator.store.state import EARLIER, Sections, State

@@ -18,9 +18,9 @@ from rotator.exchange.spoken import held_by
 from rotator.links.wire import LinkError, Wire
 from rotator.runtime.anew import Anew
 from rotator.runtime.closing import Part, closing
-from rotator.runtime.dead_threads import dead_threads
 from rotator.runtime.engine import sentinel_fails
 from rotator.runtime.open_files import say_it_once
+from rotator.runtime.own_thread import dead_threads
 
 if TYPE_CHECKING:
     from rotator.calibrating.on_page import PageCalibration

@@ -19,8 +19,7 @@ from rotator.control.controller import Controller
 from rotator.exchange.motor import NO_TRIES, Tries, Trusts
 from rotator.exchange.status import Status
 from rotator.runtime.anew import Anew
-from rotator.runtime.card_watch import CardWatch
-from rotator.runtime.keeping import Keeping
+from rotator.runtime.keeping import CardWatch, Keeping
 from rotator.runtime.state_thread import StateThread
 from rotator.store.latch import KeptLatch
 from rotator.store.learnt import KeptMotors

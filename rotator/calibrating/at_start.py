@@ -14,7 +14,7 @@ from collections.abc import Callable, Coroutine
 from typing import Any
 
 from hw.ports import Axis
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.assembly.calibration import open_compass
 from rotator.calibrating.bearing import CompassReading, HeadingSample, NorthUncertain, find_north, possible_angles_deg
 from rotator.calibrating.compass import READ_EVERY_S, CompassReader

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from hw.ports import Compass, HardwareError
 from rotator.calibrating.bearing import CompassReading
 from rotator.runtime.own_thread import OwnThread
-from rotator.store.compass import COMPASS
+from rotator.store.learnt import COMPASS
 from rotator.store.state import State
 
 READ_EVERY_S = 0.1

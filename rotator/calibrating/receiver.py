@@ -1,16 +1,72 @@
 """Asks a receiver for its signal strength about ten times a second, over the TCP socket of Hamlib's rigctld.
 
-Knows the socket, and has a thread of its own, because a receiver may take seconds to answer. Decides nothing.
+Knows the socket, the question and what an answer means: the strength comes in decibels, 0 is S9. Has a thread of its
+own, because a receiver may take seconds to answer. Decides nothing.
 """
 
 from __future__ import annotations
 
+import math
+import re
 import socket
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Protocol
 
-from rotator.calibrating.strength import ASKS_VFO, PORT, NoStrength, Strength, question, strength_db, wants_vfo
 from rotator.runtime.own_thread import OwnThread
+
+PORT = 4532
+"""rigctld's own."""
+ASKS_VFO = b"\\chk_vfo\n"
+"""A rigctld that was started with --vfo wants a VFO in each question."""
+_NUMBER = re.compile(r"[-+]?[0-9]{1,4}(?:\.[0-9]+)?")
+_REFUSED = "RPRT "
+_NOT_THERE = ("-4", "-11")
+SHOWN = 40
+
+
+@dataclass(frozen=True, slots=True)
+class Strength:
+    """The receiver's answer at this moment. `problem`: why it has no strength; empty: it has one.
+
+    `asked_s`: when it was asked; None: at this moment. It may answer seconds later, of any moment in between.
+    """
+
+    at_s: float
+    strength_db: float = 0.0
+    problem: str = ""
+    asked_s: float | None = None
+
+    def is_of(self, begin_s: float) -> bool:
+        """Whether the strength is of a moment after `begin_s`."""
+        return not self.problem and (self.at_s if self.asked_s is None else self.asked_s) >= begin_s
+
+
+class NoStrength(ValueError):  # noqa: N818 - a sentence for a person
+    """What the receiver answered in place of a strength."""
+
+
+def question(*, names_vfo: bool) -> bytes:
+    return b"l currVFO STRENGTH\n" if names_vfo else b"l STRENGTH\n"
+
+
+def wants_vfo(answer: str) -> bool:
+    """Older ones answer `CHKVFO 1`."""
+    return answer.split()[-1:] == ["1"]
+
+
+def strength_db(answer: str) -> float:
+    """Raises NoStrength."""
+    text = answer.strip()
+    if _NUMBER.fullmatch(text) and math.isfinite(float(text)):
+        return float(text)
+    if text.startswith(_REFUSED):
+        code = text.removeprefix(_REFUSED)
+        if code in _NOT_THERE:
+            raise NoStrength(f"it cannot tell a strength: Hamlib's driver for it has no S meter ({text})")
+        raise NoStrength(f"it refuses to tell its strength ({text}): is it switched on and connected?")
+    raise NoStrength(f"it answers {text[:SHOWN]!r} for a strength: is that a rigctld?")
+
 
 ASK_EVERY_S = 0.1
 AGAIN_S = 1.0

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 
 from hw.ports import Axis, FeelsField, HardwareError
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.assembly.calibration import (
     SCALES_DEG,
     calibration_controller,

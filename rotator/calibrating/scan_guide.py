@@ -24,9 +24,9 @@ from rotator.calibrating.cross import (
 from rotator.calibrating.entries import Entry, Press, StopNow
 from rotator.calibrating.facts import SkyFacts
 from rotator.calibrating.guide import Steps
+from rotator.calibrating.receiver import Strength
 from rotator.calibrating.sky_guide import KEYS, SkyGuide
 from rotator.calibrating.sky_table import miss_text
-from rotator.calibrating.strength import Strength
 from rotator.control.sky.beam_fit import Heard, Middle, NoPeak, middle
 from rotator.control.sky.model_fit import SkyPoint
 from rotator.exchange.status import Status

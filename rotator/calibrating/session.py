@@ -1,13 +1,14 @@
 """One calibration session: the axes, or north, one after the other. Each opens the hardware again.
 
-Knows how a rig is started, stepped and stopped, and that its result is saved. Does not know the terminal: lines go to
-`show`, entries come from `TypedAhead`.
+Knows how a rig is started, stepped and stopped, that its result is saved, and when what was typed ahead is given to the
+guide. Does not know the terminal: lines go to `show`.
 """
 
 from __future__ import annotations
 
 import asyncio
 import time
+from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import AbstractAsyncContextManager
 from dataclasses import KW_ONLY, dataclass
@@ -17,18 +18,49 @@ from typing import Protocol
 from hw.ports import Axis
 from rotator.assembly.kept_files import build_state
 from rotator.assembly.station import Station
+from rotator.calibrating.entries import Entry, Keyboard, StopNow, Word, from_line
+from rotator.calibrating.guide import Guide
 from rotator.calibrating.results import AngleConfirmed, Result, as_toml, save, saved_in
 from rotator.calibrating.rig import AxisRig, FieldRig, NorthRig, Rig
 from rotator.calibrating.sky_rig import SkyRig, receiver_at
 from rotator.calibrating.sky_table import Residuals
 from rotator.calibrating.stops import UNREACHED, Stops
-from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.config.load import ConfigError
 from rotator.config.model import Config
 from rotator.exchange.status import Latch
 from rotator.orbits.sight import Target
 from rotator.runtime.engine import Engine
 from rotator.store.latch import KeptLatch
+
+
+class TypedAhead:
+    """Entries on their way to the guide: keys act at once, lines wait for their question."""
+
+    def __init__(self) -> None:
+        self.keyboard = Keyboard()
+        self._waiting: deque[Entry] = deque()
+        self._by_key = False
+
+    def key(self, pressed: str) -> None:
+        """A key acts at once: a press that no question could take is not carried out later."""
+        self._by_key = True
+        entry = self.keyboard.key(pressed)
+        if entry is not None:
+            self._waiting.append(entry)
+
+    def line(self, text: str | None) -> None:
+        """A line waits for its question. `s` stops at once and clears the waiting lines. None: the input has ended."""
+        entry = Word.QUIT if text is None else from_line(text)
+        if isinstance(entry, StopNow):
+            self._waiting.clear()
+        self._waiting.append(entry)
+
+    def next(self, guide: Guide) -> Entry | None:
+        """The entry to give to the guide now."""
+        if not self._waiting or not (self._by_key or guide.ready(self._waiting[0])):
+            return None
+        return self._waiting.popleft()
+
 
 POLL_S = 0.02
 COMPASS, NORTH, SKY = "compass", "north", "sky"

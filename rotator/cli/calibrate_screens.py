@@ -17,7 +17,7 @@ from rich.console import Console, Group, RenderableType
 from rich.text import Text
 
 from rotator.calibrating.rig import Rig
-from rotator.calibrating.typed_ahead import TypedAhead
+from rotator.calibrating.session import TypedAhead
 from rotator.cli import lines
 from rotator.cli.screen import draw
 

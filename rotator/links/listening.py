@@ -1,18 +1,43 @@
-"""Why the box cannot listen at an address, and what to write into its file instead.
+"""Why the box cannot listen at an address, and what to write into its file instead; and this machine's own addresses.
 
-Knows the usual errors: the PC's address in place of the box's own, a name that does not exist, a port for root. Opens
-no port.
+Knows the usual errors: the PC's address in place of the box's own, a name that does not exist, a port for root. Knows
+network cards. Opens no port.
 """
 
 from __future__ import annotations
 
 import errno
+import fcntl
 import ipaddress
 import os
 import socket
+import struct
+from contextlib import suppress
 
-from rotator.links.addresses import addresses
 from rotator.links.wire import reason
+
+_ADDRESS, _NETMASK = 0x8915, 0x891B
+"""SIOCGIFADDR and SIOCGIFNETMASK of linux/sockios.h."""
+_NO_LAN = ("lo", "docker", "br-", "veth", "virbr", "tun", "wg", "tailscale")
+
+
+def addresses() -> tuple[ipaddress.IPv4Interface, ...]:
+    """The IPv4 addresses of this machine's network cards; those of virtual machines and tunnels are left out."""
+    found = []
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
+        for _, name in socket.if_nameindex():
+            if not name.startswith(_NO_LAN):
+                with suppress(OSError):
+                    address, mask = (_asked(any_socket, request, name) for request in (_ADDRESS, _NETMASK))
+                    found.append(ipaddress.IPv4Interface(f"{address}/{mask}"))
+    return tuple(found)
+
+
+def _asked(any_socket: socket.socket, request: int, name: str) -> str:
+    """The answer of the kernel on a network card. Raises OSError for one without an address."""
+    answer = fcntl.ioctl(any_socket.fileno(), request, struct.pack("256s", name.encode()[:15]))
+    return socket.inet_ntoa(answer[20:24])
+
 
 LAST_OF_ROOT = 1023
 NOT_OURS = "could not bind"

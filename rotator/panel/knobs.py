@@ -1,14 +1,16 @@
-"""The two knobs of a front panel: the angles that they order, and what is said of a broken wire.
+"""The two knobs of a front panel: the angles that they order, what is said of a broken wire, and their calibration.
 
-Knows which knob has been turned and not yet ordered. Does not know the modes: the caller says when a knob may aim.
+Knows which knob has been turned and not yet ordered, and the stages of the calibration. Does not know the modes: the
+caller says when a knob may aim.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from enum import Enum
 
 from hw.ports import Axis
-from rotator.exchange.orders import Aim, Order, Remark
+from rotator.exchange.orders import Aim, Home, Order, Remark
 from rotator.exchange.status import AxisStatus, Status
 from rotator.panel.inputs import Knob, KnobWiring
 
@@ -81,3 +83,53 @@ class Knobs:
 
 def _angle_deg(axis: AxisStatus, share: float) -> float:
     return axis.min_deg + share * (axis.max_deg - axis.min_deg)
+
+
+LEAST_FULL_SCALE = 0.25
+"""A knob that reads less than this share of its supply has not been turned to its maximum."""
+BEGINNING = (
+    "calibrating: step the mode switch to home the azimuth, once more for the elevation, once more to end it; "
+    "then open the calibrate switch"
+)
+
+
+class Stage(Enum):
+    KNOBS = "knobs"
+    AZIMUTH = "azimuth"
+    ELEVATION = "elevation"
+    DONE = "done"
+
+
+_NEXT = {Stage.KNOBS: Stage.AZIMUTH, Stage.AZIMUTH: Stage.ELEVATION}
+
+
+class PanelCalibration:
+    """What begins when the box is switched on with the panel's calibrate switch closed, step by step.
+
+    First the knobs, turned to their maximum, are read for their full scale. Then each step of the mode switch starts
+    the next stage: home the azimuth, home the elevation, end.
+    """
+
+    def __init__(self) -> None:
+        self.stage = Stage.KNOBS
+        self._measured: set[Axis] = set()
+
+    def full_scales(self, readings: Mapping[Axis, float | None]) -> tuple[dict[Axis, float], tuple[str, ...]]:
+        """The full scale of each knob, once, as soon as it can be read; and notes for the log."""
+        found: dict[Axis, float] = {}
+        notes: list[str] = []
+        for axis, reading in readings.items():
+            if self.stage is not Stage.KNOBS or reading is None or axis in self._measured:
+                continue
+            self._measured.add(axis)
+            if reading < LEAST_FULL_SCALE:
+                notes.append(f"calibrating: the {axis.value} knob reads {reading:.3f}: not its maximum, ignored")
+            else:
+                found[axis] = reading
+                notes.append(f"calibrating: the {axis.value} knob's full scale is {reading:.3f}")
+        return found, tuple(notes)
+
+    def step(self) -> Home | None:
+        """The operator has turned the mode switch. Returns the next axis to home; None: the calibration is done."""
+        self.stage = _NEXT.get(self.stage, Stage.DONE)
+        return None if self.stage is Stage.DONE else Home(Axis(self.stage.value))

@@ -17,9 +17,8 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from rotator.exchange.orders import Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.exchange.status import AxisStatus, Status
-from rotator.panel.calibration import BEGINNING, PanelCalibration, Stage
 from rotator.panel.inputs import Contact, JogSwitches, KnobWiring, ModeSwitch, StopButton
-from rotator.panel.knobs import Knobs
+from rotator.panel.knobs import BEGINNING, Knobs, PanelCalibration, Stage
 
 LEAST_INDEX, MOST_INDEX = -7, 8
 """The range of the index by which the jog switches shift an order."""

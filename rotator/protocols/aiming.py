@@ -1,7 +1,7 @@
-"""From text to angles in degrees, and from angles to an order, for every protocol that sends degrees.
+"""From text to angles in degrees, from angles to an order, and from an angle to whole numbers, for every protocol.
 
-Knows how programs write a number: the one reader of decimals for all protocols. Does not know which angles the box
-obeys: `rotator.control.admission` does.
+Knows how programs write a number: the one reader of decimals for all protocols. Numbers are rounded half up, as the
+controllers do that the box stands in for. Does not know which angles the box obeys: `rotator.control.admission` does.
 """
 
 from __future__ import annotations
@@ -13,6 +13,18 @@ from hw.ports import Axis
 from rotator.control.admission import SENT_DEG, WIDEST_DEG
 from rotator.exchange.orders import Aim
 from rotator.exchange.sources import Refusal
+
+
+def whole(number: float) -> int:
+    """Rounded half up: 0.5 becomes 1, and -0.5 becomes 0."""
+    return math.floor(number + 0.5)
+
+
+def bearing(azimuth_deg: float) -> int:
+    """In whole degrees, 0 to 360; on a further turn of the overlap the same direction of the first turn."""
+    rounded_deg = whole(azimuth_deg)
+    return rounded_deg if 0 <= rounded_deg <= 360 else rounded_deg % 360
+
 
 NUMBER = r"[+-]?(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+-]?[0-9]+)?"
 """Programs write `1e-05` (Java, C#), 17 digits, `.5` (Visual Basic) and `12,4` (a European desktop)."""

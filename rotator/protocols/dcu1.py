@@ -11,9 +11,8 @@ import re
 from dataclasses import dataclass
 
 from rotator.exchange.orders import Stop
-from rotator.protocols.aiming import aim, outside
+from rotator.protocols.aiming import aim, outside, whole
 from rotator.protocols.damaged import NOISE, is_stop
-from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box, Talk
 
 MAX_COMMAND = 32

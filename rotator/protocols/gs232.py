@@ -11,9 +11,8 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
-from rotator.protocols.aiming import SURE_NUMBER, degrees
+from rotator.protocols.aiming import SURE_NUMBER, degrees, whole
 from rotator.protocols.damaged import NOISE, is_stop
-from rotator.protocols.rounding import whole
 
 LEAST_AZIMUTHS = 2
 """In a timed list. The manual says so, and a program that adds an elevation to an M must not turn to it."""

@@ -9,10 +9,9 @@ from hw.ports import Axis, Direction
 from rotator.exchange.orders import Calibrate, ClearTimed, Jog, LoadTimed, Order, RunTimed, Speed, Stop
 from rotator.exchange.status import AxisStatus
 from rotator.protocols import gs232
-from rotator.protocols.aiming import aim, outside
+from rotator.protocols.aiming import aim, outside, whole
 from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand
 from rotator.protocols.lines import OVERLONG, LineTalk
-from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box
 
 _OF_ELEVATION = ("B", "C2", "W", "U", "D", "E", "O2", "F2")

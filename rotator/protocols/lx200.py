@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
-from rotator.protocols.rounding import whole
+from rotator.protocols.aiming import whole
 
 MAX_COMMAND = 32
 ACK = 0x06

@@ -6,7 +6,7 @@ Knows no command.
 
 from __future__ import annotations
 
-from rotator.protocols.rounding import bearing, whole
+from rotator.protocols.aiming import bearing, whole
 from rotator.protocols.session import Box, Session
 
 LOOK_S = 0.25

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from xml.sax.saxutils import unescape
 
 from rotator.exchange.orders import Aim, Stop
-from rotator.protocols.aiming import degrees, outside
+from rotator.protocols.aiming import degrees, outside, whole
 from rotator.protocols.damaged import is_stop
-from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box, Talk
 
 REPORT_EVERY_S = 15.0

@@ -13,9 +13,8 @@ from enum import Enum
 
 from hw.ports import Axis
 from rotator.exchange.orders import Stop
-from rotator.protocols.aiming import aim
+from rotator.protocols.aiming import aim, whole
 from rotator.protocols.damaged import is_stop
-from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box, Talk
 
 STX, CR = 0x02, 0x0D

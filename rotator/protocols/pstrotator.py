@@ -14,9 +14,8 @@ from operator import gt
 
 from rotator.exchange.orders import Order, Park, Stop
 from rotator.orbits.earth import Site, direction
-from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.aiming import aim, degrees, whole
 from rotator.protocols.damaged import is_stop
-from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box, Talk
 
 ANSWERS_ABOVE = 1

@@ -14,9 +14,8 @@ from http import HTTPStatus
 from urllib.parse import parse_qsl, urlsplit
 
 from rotator.exchange.orders import Order, Stop
-from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.aiming import aim, degrees, whole
 from rotator.protocols.damaged import is_stop
-from rotator.protocols.rounding import whole
 from rotator.protocols.session import Box, Talk
 
 MAX_REQUEST = 4096

@@ -12,8 +12,7 @@ from enum import Enum, IntEnum, IntFlag
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Jog, Stop
-from rotator.protocols.aiming import aim
-from rotator.protocols.rounding import whole
+from rotator.protocols.aiming import aim, whole
 from rotator.protocols.session import Box, Talk
 
 START, END = 0x57, 0x20

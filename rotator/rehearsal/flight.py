@@ -1,23 +1,66 @@
 """A rehearsal: the box, or the emulated Arduino, follows a satellite pass in simulated time, and a trace is recorded.
 
-Knows which plant is asked for, with which faults, and that the target of a recognised stream is where the satellite
-really was. Does not know by which orders a plant follows the pass, nor how the errors are summed up.
+Knows which plant is asked for, with which faults, that the target of a recognised stream is where the satellite really
+was, and what a pass comes to: pointing error, work of relays and motors, faults at the end. Does not know by which
+orders a plant follows the pass.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.config.model import Config
 from rotator.control.sky.mount import counted_target
+from rotator.rehearsal.overhearing import Named
 from rotator.rehearsal.passes import Pass
 from rotator.rehearsal.plants import ArduinoPlant, BoxPlant, Plant
 from rotator.rehearsal.sky_target import SkyTarget
-from rotator.rehearsal.summary import SAMPLE_S, Summary, summarise
-from rotator.views.trace import Sample
+from rotator.views.trace import Sample, errors_deg, p95, rms
+
+SAMPLE_S = 0.05
+"""The time between two samples of a trace."""
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """Great-circle error between target and antenna while the satellite is up, and the work of relays and motors."""
+
+    rms_deg: float
+    p95_deg: float
+    max_deg: float
+    relay_starts: int | None
+    motor_s: float
+    recognised: Named | None = None
+    """The satellite that the box has recognised in the stream; None: none."""
+    faults: tuple[str, ...] = ()
+    """The faults that hold an axis at the end, each in a sentence."""
+
+    def as_dict(self) -> dict[str, object]:
+        return _rounded(asdict(self))
+
+
+def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
+    """The errors that count; the motors' time over the whole trace."""
+    errors = errors_deg(trace) or [0.0]
+    return Summary(
+        rms_deg=rms(errors),
+        p95_deg=p95(errors),
+        max_deg=errors[-1],
+        relay_starts=relay_starts,
+        motor_s=sum(abs(sample.az_drive) + abs(sample.el_drive) for sample in trace) * SAMPLE_S,
+    )
+
+
+def _rounded(values: dict[str, Any]) -> dict[str, object]:
+    return {
+        key: _rounded(value) if isinstance(value, dict) else round(value, 3) if isinstance(value, float) else value
+        for key, value in values.items()
+    }
+
 
 Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
 """Which faults the simulated rotor has: (moment in seconds, name)."""

@@ -1,16 +1,21 @@
-"""Hands over what must outlive the program, each time it changes: a latched stop, vain tries, what is known of relays.
+"""What must outlive the program: handed over each time it changes, and whether the card keeps it.
 
-Knows the status. Does not know files: `state_thread` writes them, and the control thread never waits for that.
+Knows the status: a latched stop, vain tries, what is known of relays. Knows the words for a person where a card refuses
+a write, or hangs, and when to say them. Does not know files: `state_thread` writes them, and the control thread, which
+asks in each cycle, never waits for that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import KW_ONLY, dataclass, field
+from pathlib import Path
 
 from hw.ports import Axis
+from rotator.exchange.faults import Notice
 from rotator.exchange.motor import Tries, Trusts
 from rotator.exchange.status import Latch, Status
+from rotator.store.hanging import HANGS, Hanging, writes
 
 
 @dataclass(eq=False)
@@ -35,3 +40,35 @@ class Keeping:
             self.tries({axis: now.axis(axis).tries for axis in Axis})
         if (now.azimuth.trusts, now.elevation.trusts) != (before.azimuth.trusts, before.elevation.trusts):
             self.trusts({axis: now.axis(axis).trusts for axis in Axis})
+
+
+UNKEPT = (
+    "the box cannot keep a stop, nor what it knows of the relays and motors: {trouble}. Look for a full or read-only "
+    "card; look at the relays before the Pi starts again"
+)
+
+
+class CardWatch:
+    """Whether the card keeps what the box must not forget: it may refuse a write, which is said at once, or not return
+    from one, which is said after some seconds.
+
+    `refusals`: why the card refused the last change of each file; empty where it did not.
+    """
+
+    def __init__(
+        self, refusals: Callable[[], list[str]] = list, under_way: Callable[[], Mapping[int, Path]] = writes
+    ) -> None:
+        self._refusals = refusals
+        self._under_way = under_way
+        self._hanging: Hanging[int] = Hanging()
+
+    def look(self, now_s: float) -> Notice | None:
+        """What a person must hear of the card; None: it takes each write."""
+        begun = self._under_way()
+        for number in self._hanging.look(begun, now_s):
+            if (path := begun.get(number)) is not None:
+                return Notice(UNKEPT.format(trouble=f"{HANGS}, and {path.name} is not written"), "CARD HANGS")
+        for refusal in self._refusals():
+            if refusal:
+                return Notice(UNKEPT.format(trouble=refusal), "CARD REFUSES")
+        return None

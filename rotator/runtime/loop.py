@@ -17,12 +17,11 @@ from rotator.exchange.sources import PAGE, Source
 from rotator.exchange.status import Status
 from rotator.rotors.port import Rotor
 from rotator.runtime.bell import Bell
-from rotator.runtime.card_watch import CardWatch
 from rotator.runtime.errands import Errands
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
 from rotator.runtime.journal import Journal
-from rotator.runtime.keeping import Keeping
+from rotator.runtime.keeping import CardWatch, Keeping
 from rotator.runtime.sensor_thread import SensorThread
 
 log = logging.getLogger(__name__)

@@ -1,16 +1,20 @@
 """Work in a thread of its own, for what waits for a disk, a chip or a network: until it is stopped, or one job.
 
-Knows how such a thread starts, and how its end is waited for. Does not know the work.
+Knows how such a thread starts, how its end is waited for, and what a mistake in one of them means. Does not know the
+work.
 """
 
 from __future__ import annotations
 
 import asyncio
+import logging
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, InvalidStateError
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from typing import TypeVar
+
+from hw.ports import HardwareError
 
 T = TypeVar("T")
 
@@ -58,3 +62,30 @@ async def aside(job: Callable[[], T], name: str, late: Callable[[T], object] = l
 
     threading.Thread(target=run, name=name, daemon=True).start()
     return await asyncio.wrap_future(done)
+
+
+log = logging.getLogger(__name__)
+
+
+@contextmanager
+def dead_threads(tell: Callable[[HardwareError], None]) -> Iterator[None]:
+    """Inside this context `tell` is called for each thread of this process that ends by an exception, in that thread.
+
+    A dead thread is silent, and no other does its work. Without its reader a link would not even obey `S`; a stop would
+    not survive a restart; a display would show old angles for days. So it ends the whole box, which the service manager
+    starts again.
+
+    The exception goes into the log, also when the thread dies while the box ends.
+    """
+
+    def died(death: threading.ExceptHookArgs) -> None:
+        name = death.thread.name if death.thread else "unknown"
+        dead = HardwareError(f"the thread {name!r} has ended by a mistake of the program")
+        log.error("%s; please report it", dead, exc_info=death.exc_value)
+        tell(dead)
+
+    before, threading.excepthook = threading.excepthook, died
+    try:
+        yield
+    finally:
+        threading.excepthook = before

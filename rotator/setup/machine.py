@@ -10,7 +10,7 @@ import socket
 from dataclasses import dataclass
 from pathlib import Path
 
-from rotator.links.addresses import addresses
+from rotator.links.listening import addresses
 from rotator.setup import tree
 
 

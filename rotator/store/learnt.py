@@ -1,6 +1,7 @@
-"""The measured speed and coast of each motor.
+"""What the box has learnt of its parts: speed and coast of each motor, a compass's own errors, each knob's full scale.
 
-Knows which change is large enough for a write. Does not know how a motor is measured.
+Knows which figures are possible, and which change of a motor's is large enough for a write. Does not know how any of
+them is measured, nor what a compass's bytes mean: its chip loses them without power.
 """
 
 from __future__ import annotations
@@ -122,3 +123,50 @@ def _differs(old: Motors, new: Motors, *, ending: bool) -> bool:
         or abs(b.coast_deg - a.coast_deg) > WORTH_WRITING * max(a.coast_deg, LEAST_COAST_DEG)
         for a, b in zip(old, new, strict=True)
     )
+
+
+OFFSETS_COUNT = 22
+"""Bytes, as the BNO055's registers hold them."""
+
+
+def _offsets_content(offsets: bytes | None) -> Content:
+    return {"offsets": (offsets or b"").hex(" ")}
+
+
+def _offsets(content: dict[str, Any]) -> bytes | None:
+    offsets = bytes.fromhex(content["offsets"])
+    if len(offsets) != OFFSETS_COUNT:
+        raise ValueError(f"the offsets are {len(offsets)} bytes, not {OFFSETS_COUNT}")
+    return offsets
+
+
+COMPASS: Section[bytes | None] = Section(
+    "compass", _offsets, _offsets_content, None, None, "ignored, the compass learns its errors anew"
+)
+
+
+LEAST_SHARE, MOST_SHARE = 0.1, 1.1
+"""The full scale of a working knob lies between these shares of its supply."""
+DIGITS = 4
+"""Digits of a share in the file."""
+
+FullScales = Mapping[Axis, float]
+"""The reading of each knob at the end of its travel, as a share of the knob's supply."""
+
+
+def _shares_content(full_scales: FullScales) -> Content:
+    return {"full_scales": {axis.value: round(share, DIGITS) for axis, share in full_scales.items()}}
+
+
+def _shares(content: dict[str, Any]) -> FullScales:
+    shares = {Axis(name): share for name, share in content["full_scales"].items()}
+    return {
+        axis: number(share, f"the {axis.value} knob's full scale", LEAST_SHARE, MOST_SHARE)
+        for axis, share in shares.items()
+    }
+
+
+UNKNOWN: FullScales = {}
+KNOBS: Section[FullScales] = Section(
+    "knobs", _shares, _shares_content, UNKNOWN, UNKNOWN, "ignored, the panel's knobs count as uncalibrated"
+)

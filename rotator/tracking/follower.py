@@ -19,8 +19,7 @@ from rotator.exchange.sources import Source
 from rotator.exchange.status import Status, time_left
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.tracking.next_flight import NextFlight, Now
-from rotator.tracking.next_followed import Upcoming, WantedOften
+from rotator.tracking.next_flight import NextFlight, Now, Upcoming, WantedOften
 from rotator.tracking.ports import TRACK, Box
 from rotator.tracking.tracked import Flown
 from rotator.tracking.tracker import CLOCK_UNSURE, Tracker

@@ -15,12 +15,40 @@ from rotator.config.station import NO_PLACE
 from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
+from rotator.orbits.element_files import Found, read_file
 from rotator.orbits.elements import Elements
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
 from rotator.orbits.targets import Fixed, and_path, find, fixed
 from rotator.orbits.twins import one_of_each
+from rotator.runtime.own_process import OwnProcess
 from rotator.tracking.next_flight import Wanted
+
+LARGE_BYTES = 200_000
+"""Bytes of some hundred satellites. A smaller file takes some milliseconds; the start of a process, half a second."""
+LONGEST_S = 120.0
+
+
+class FileReader:
+    """Reads files of elements for the running box: a large one in a process of its own. Parsing ten megabytes keeps the
+    interpreter busy for seconds, and the control loop needs the same interpreter.
+
+    `read` may be called from one thread only, `close` from any.
+    """
+
+    def __init__(self) -> None:
+        self._process = OwnProcess(LONGEST_S, once=True)
+
+    def read(self, path: Path) -> Found:
+        """Raises OSError, ValueError; RuntimeError where the process fails."""
+        if path.stat().st_size <= LARGE_BYTES:
+            return read_file(path)
+        return self._process.compute(read_file, path)
+
+    def close(self) -> None:
+        """Give up a file that is being read."""
+        self._process.close()
+
 
 _ANYWHERE = Site(0.0, 0.0)
 

@@ -13,8 +13,17 @@ from rotator.exchange.flight_order import Fly
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
 from rotator.runtime.own_process import OwnProcess
-from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted, next_flight, rest_flight
-from rotator.tracking.next_followed import Upcoming, WantedOften, next_followed
+from rotator.tracking.next_flight import (
+    NeverRises,
+    NextFlight,
+    Now,
+    Upcoming,
+    Wanted,
+    WantedOften,
+    next_flight,
+    next_followed,
+    rest_flight,
+)
 from rotator.tracking.program import CannotFly, Program, program_flight
 
 LONGEST_S = 120.0

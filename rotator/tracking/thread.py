@@ -13,9 +13,8 @@ from collections.abc import Callable
 from rotator.runtime.own_thread import OwnThread
 from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
-from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
-from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.known_sky import FileReader, KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import Now
 from rotator.tracking.planner import ProcessPlanner

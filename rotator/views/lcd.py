@@ -13,7 +13,7 @@ from hw.ports import Axis
 from rotator.exchange.orders import Mode
 from rotator.exchange.spoken import short_sender
 from rotator.exchange.status import Status
-from rotator.protocols.rounding import bearing, whole
+from rotator.protocols.aiming import bearing, whole
 from rotator.views.words import rise_or_set
 
 COLUMNS = 16

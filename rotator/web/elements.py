@@ -20,8 +20,7 @@ from rotator.orbits.elements import Elements, printable
 from rotator.protocols.methods import WrongValuesError
 from rotator.store.fetches import Asked, FetchesFile
 from rotator.store.uploads import MOST_BYTES, NotKeptError, Uploads
-from rotator.tracking.file_reader import FileReader
-from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.known_sky import FileReader, KnownSky
 from rotator.web.entrance import RefusedError, bytes_of
 from rotator.web.route import Route, get, post
 from rotator.web.schema import ELEMENTS, Body, Sent, in_address, the

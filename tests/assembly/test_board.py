@@ -12,7 +12,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from hw.buses.gpio import LinesBusyError
 from hw.ports import HardwareError
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.assembly.simulation import SimulatedStation
 from rotator.config.adc import Adc
 from rotator.config.model import Config

@@ -17,11 +17,9 @@ from rotator.backup.content import ABOUT, CHECKS, CONFIGURATION, FORM, STATE, Ba
 from rotator.backup.restore import BEFORE, FAILED, UNDER_WAY, WAITING, complete, stage
 from rotator.config.load import parse
 from rotator.exchange.status import Latch
-from rotator.store.compass import COMPASS
 from rotator.store.json_file import encode
-from rotator.store.knobs import KNOBS, FullScales
 from rotator.store.latch import LATCH
-from rotator.store.learnt import LEARNT
+from rotator.store.learnt import COMPASS, KNOBS, LEARNT, FullScales
 from rotator.store.priorities import PRIORITIES, Changed
 from rotator.store.state import FORM as STATE_FORM
 from rotator.store.state import SPARED, State

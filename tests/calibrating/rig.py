@@ -12,9 +12,9 @@ from hw.ports import Axis
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import from_line
+from rotator.calibrating.receiver import Strength
 from rotator.calibrating.rig import AxisRig, NorthRig
 from rotator.calibrating.sky_rig import SkyRig
-from rotator.calibrating.strength import Strength
 from rotator.config.model import Config
 from rotator.control.sky.model_fit import SkyPoint
 from rotator.control.sky.pointing_model import PERFECT

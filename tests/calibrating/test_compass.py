@@ -14,7 +14,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.ports import HardwareError
-from rotator.assembly.board import Board
+from rotator.assembly.buses import Board
 from rotator.assembly.calibration import open_compass
 from rotator.calibrating.compass import CompassReader
 from rotator.config.load import parse

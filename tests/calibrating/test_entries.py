@@ -9,17 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.calibrating.entries import (
-    NUMBER_FORM,
-    Entry,
-    Keyboard,
-    Number,
-    Press,
-    StopNow,
-    Unknown,
-    Word,
-    from_line,
-)
+from rotator.calibrating.entries import NUMBER_FORM, Entry, Keyboard, Number, Press, StopNow, Unknown, Word, from_line
 from rotator.config.load import parse
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from tests.calibrating.rig import QUIET, Calibration

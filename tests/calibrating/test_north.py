@@ -16,7 +16,7 @@ from firmware_sim.chips.bno055 import Bno055 as SimBno055
 from hw.ports import HardwareError
 from rotator.calibrating.results import AngleConfirmed, NorthFound, as_toml
 from rotator.config.load import parse
-from rotator.store import compass
+from rotator.store.learnt import COMPASS as OWN_ERRORS
 from rotator.store.state import State
 
 ADDRESS = 0x28
@@ -178,7 +178,7 @@ def test_what_it_has_learnt_is_kept_and_given_back(north_calibration: Any, tmp_p
         assert "Not kept: only what is 3 in every part" in run.text
     run.say("y")
     assert f"What the compass has learnt is kept in {corrections}." in run.text
-    assert State(corrections).load(compass.COMPASS) == LEARNT
+    assert State(corrections).load(OWN_ERRORS) == LEARNT
 
     again = north_calibration(G5500 + TRUE + COMPASS, corrections=State(corrections))
     assert "The compass has been given back what it had learnt." in again.text

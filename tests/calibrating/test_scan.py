@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from firmware_sim.parts.receiver import ReceiverSpec, SimReceiver
-from rotator.calibrating.strength import Strength
+from rotator.calibrating.receiver import Strength
 from rotator.config.model import Config
 from rotator.control.sky.model_fit import SkyPoint
 from rotator.control.sky.pointing_model import PERFECT

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.calibrating.receiver import BadAddress, address
-from rotator.calibrating.strength import NoStrength, question, strength_db, wants_vfo
+from rotator.calibrating.receiver import BadAddress, NoStrength, address, question, strength_db, wants_vfo
 from tests.tables import every_row
 
 

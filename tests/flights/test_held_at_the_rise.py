@@ -8,9 +8,8 @@ from multiprocessing import get_context
 import pytest
 
 from rotator.config.load import parse
-from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.flight import Summary, fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
-from rotator.rehearsal.summary import Summary
 
 HELD_S = 30.0
 

@@ -11,8 +11,7 @@ from contextlib import contextmanager
 import pytest
 
 from firmware_sim.parts.rigctld import SimRigctld
-from rotator.calibrating.receiver import RigctldReceiver
-from rotator.calibrating.strength import Strength
+from rotator.calibrating.receiver import RigctldReceiver, Strength
 from tests.boxes import free_port
 
 DUMMY_RIG = "1"

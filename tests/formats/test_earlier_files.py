@@ -19,10 +19,9 @@ from rotator.config.save import save_table
 from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import Motor, Tries, Trust
 from rotator.exchange.status import Latch
-from rotator.store.compass import COMPASS
 from rotator.store.counts import CountsFile, Place, Standing
-from rotator.store.knobs import KNOBS
 from rotator.store.latch import DAMAGED, LATCH, KeptLatch
+from rotator.store.learnt import COMPASS, KNOBS
 from rotator.store.priorities import Priorities
 from rotator.store.relays import RELAYS, KeptRelays
 from rotator.store.state import EARLIER, State

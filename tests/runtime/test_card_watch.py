@@ -15,8 +15,7 @@ from rotator.exchange.orders import Aim, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Latch
 from rotator.protocols.console_session import report
-from rotator.runtime.card_watch import CardWatch
-from rotator.runtime.keeping import Keeping
+from rotator.runtime.keeping import CardWatch, Keeping
 from rotator.runtime.state_thread import StateThread
 from rotator.store.hanging import HANGS_S, writes
 from rotator.store.latch import KeptLatch

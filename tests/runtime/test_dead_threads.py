@@ -10,7 +10,7 @@ from collections.abc import Callable
 import pytest
 
 from hw.ports import HardwareError
-from rotator.runtime.dead_threads import dead_threads
+from rotator.runtime.own_thread import dead_threads
 
 
 def raises(failure: BaseException) -> Callable[[], None]:

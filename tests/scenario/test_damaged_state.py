@@ -18,10 +18,8 @@ from rotator.assembly.kept_files import build_learnt, build_state
 from rotator.exchange.motor import Motor
 from rotator.exchange.status import Latch
 from rotator.store import counts
-from rotator.store.compass import COMPASS, OFFSETS_COUNT
-from rotator.store.knobs import KNOBS, LEAST, MOST
 from rotator.store.latch import LATCH
-from rotator.store.learnt import LEARNT
+from rotator.store.learnt import COMPASS, KNOBS, LEARNT, LEAST_SHARE, MOST_SHARE, OFFSETS_COUNT
 from rotator.store.state import State
 from tests.rotors.rig import AZ, EL, KINDS, Box, Kind, configured
 from tests.search import examples
@@ -159,7 +157,7 @@ def test_any_other_section(tmp_path: Path, data: st.DataObject) -> None:
     state.keep(COMPASS, bytes(range(OFFSETS_COUNT)))
     path.write_bytes(data.draw(damaged(path.read_text())))
     found = State(path)
-    assert all(LEAST <= share <= MOST for share in found.load(KNOBS).values())
+    assert all(LEAST_SHARE <= share <= MOST_SHARE for share in found.load(KNOBS).values())
     offsets = found.load(COMPASS)
     assert offsets is None or len(offsets) == OFFSETS_COUNT
     latch = found.load(LATCH)

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from rotator.cli.network import Asked, wait_for_the_pc
 from rotator.config.load import SIMULATED, parse, profiles, shipped
 from rotator.exchange.sources import Source
-from rotator.links.addresses import addresses
+from rotator.links.listening import addresses
 from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
 from rotator.setup.network import BLOCK as MARKS
 from rotator.setup.network import closed, open_to

@@ -20,8 +20,8 @@ import pytest
 
 import rotator.store.state
 from rotator.exchange.status import Latch
-from rotator.store.knobs import KNOBS
 from rotator.store.latch import BEFORE, LATCH
+from rotator.store.learnt import KNOBS
 from rotator.store.state import EARLIER, Sections, State
 from tests.refusing import refuse
 from tests.search import some

@@ -11,10 +11,9 @@ from hw.ports import Axis
 from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import NO_TRIES, Tries, Trust
 from rotator.exchange.status import Latch
-from rotator.store.compass import COMPASS
 from rotator.store.favourites import FAVOURITES, FIRST, MOST, Favourite
-from rotator.store.knobs import KNOBS
 from rotator.store.latch import DAMAGED, LATCH
+from rotator.store.learnt import COMPASS, KNOBS
 from rotator.store.priorities import PRIORITIES, Changed
 from rotator.store.relays import RELAYS, UNKNOWN
 from rotator.store.state import Section, State

@@ -10,8 +10,7 @@ from rotator.assembly.tracking import build_antenna
 from rotator.config.load import parse
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.passes import passes
-from rotator.tracking.next_flight import LONGEST_S, Now, Wanted
-from rotator.tracking.next_followed import WantedOften, next_followed
+from rotator.tracking.next_flight import LONGEST_S, Now, Wanted, WantedOften, next_followed
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, FEBRUARY_S
 
 SATELLITE = Catalogue((str(ELEMENTS),)).find("rs-44")

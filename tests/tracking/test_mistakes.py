@@ -18,8 +18,8 @@ from rotator.control.sky.timed_table import TimedTable
 from rotator.store.favourites import KeptFavourites
 from rotator.store.priorities import Priorities
 from rotator.store.state import State
-from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
+from rotator.tracking.known_sky import FileReader
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import NextFlight, Now
 from rotator.tracking.planner import ProcessPlanner

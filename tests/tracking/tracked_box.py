@@ -27,8 +27,16 @@ from rotator.runtime.loop import ControlLoop
 from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
-from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
-from rotator.tracking.next_followed import Upcoming, WantedOften, next_followed
+from rotator.tracking.next_flight import (
+    NextFlight,
+    Now,
+    Upcoming,
+    Wanted,
+    WantedOften,
+    next_flight,
+    next_followed,
+    rest_flight,
+)
 from rotator.tracking.program import Program, program_flight
 from rotator.tracking.tracker import Tracker
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 import pytest
 
 from rotator.control.sky.mount import Mount, Range, Sector
-from rotator.rehearsal.summary import Summary
+from rotator.rehearsal.flight import Summary
 from rotator.views.pass_svg import SKY, Flown, draw
 from rotator.views.sky_svg import SkySvg
 from rotator.views.trace import Sample

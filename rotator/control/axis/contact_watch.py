@@ -13,8 +13,7 @@ from collections import deque
 
 from hw.ports import Direction
 from rotator.control.axis.readings import Condition
-from rotator.control.axis.relay_state import BLINK_S, RelayState
-from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
+from rotator.control.axis.relay_state import BLINK_S, BOTH_WAYS, RelayState, RelayTrusts
 from rotator.control.sky.mount import Range
 from rotator.exchange.motor import Trust
 

@@ -16,8 +16,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import Direction
-from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import BOTH_WAYS
+from rotator.control.axis.relay_state import BOTH_WAYS, RelayState
 from rotator.control.axis.trend import Slope, Trend
 from rotator.exchange.motor import Motor
 

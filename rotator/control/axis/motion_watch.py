@@ -14,8 +14,7 @@ from rotator.control.axis.estimator import BACK_SHARE, FAST_SHARE, SLOW_SHARE, A
 from rotator.control.axis.opening_watch import OpeningWatch
 from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.axis.relay_faults import CUT_BY_HAND, WAYS, accusation, unstoppable
-from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
+from rotator.control.axis.relay_state import BOTH_WAYS, RelayState, RelayTrusts
 from rotator.control.axis.run_watch import endless
 from rotator.control.axis.vain_runs import VainRuns
 from rotator.control.sky.mount import Range

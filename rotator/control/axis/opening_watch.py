@@ -14,8 +14,7 @@ from __future__ import annotations
 from hw.ports import Direction
 from rotator.control.axis.estimator import Estimator
 from rotator.control.axis.obstacles import HOLDS_DEG, STOP_BEYOND_DEG, Obstacles
-from rotator.control.axis.relay_state import BLINK_S, RelayState
-from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
+from rotator.control.axis.relay_state import BLINK_S, BOTH_WAYS, RelayState, RelayTrusts
 from rotator.control.axis.trend import Slope
 from rotator.control.sky.mount import Range
 from rotator.exchange.motor import Trust

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.relay_trust import BOTH_WAYS
+from rotator.control.axis.relay_state import BOTH_WAYS
 from rotator.exchange.faults import Fault, FaultKind, Notice
 from rotator.exchange.motor import Trust, Trusts
 

@@ -1,6 +1,7 @@
-"""What the relays of one axis do, and what they did last: one value, the same for every watch of the axis.
+"""What the relays of one axis do, and what they did last; and how far each is trusted to be open.
 
-Knows directions and moments. Does not know whether a relay has really opened: `relay_trust` holds that.
+Knows directions and moments, and what has been reported. Does not know how that was found out: `opening_watch` and
+`contact_watch` do.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ import math
 from dataclasses import dataclass, field
 
 from hw.ports import Direction
+from rotator.exchange.motor import Trust, Trusts
 
 BLINK_S = 0.1
 """A relay that closes again this soon after it opened continues its run: a stop, then the same order once more."""
@@ -44,3 +46,43 @@ class RelayState:
             return RelayState(direction, now_s, self.last, self.begun_s)
         goes_on = not self.closed and direction is self.last and now_s - self.since_s < BLINK_S
         return RelayState(direction, now_s, direction, self.begun_s if goes_on else now_s)
+
+
+BOTH_WAYS = (Direction.PLUS, Direction.MINUS)
+
+
+class RelayTrusts:
+    """`trusts`: what an earlier run of the program has left."""
+
+    def __init__(self, trusts: Trusts) -> None:
+        self._of = dict(zip(BOTH_WAYS, trusts, strict=True))
+
+    @property
+    def both(self) -> Trusts:
+        return self._of[Direction.PLUS], self._of[Direction.MINUS]
+
+    def of(self, way: Direction) -> Trust:
+        return self._of[way]
+
+    def closed(self, way: Direction) -> None:
+        """This relay is closed, or may be. An older doubt stays."""
+        if self._of[way] is Trust.OPEN:
+            self._of[way] = Trust.UNSEEN
+
+    def look_again(self, way: Direction) -> None:
+        """What raised the doubt of this relay is over: readings may show now whether it is open."""
+        if self._of[way] is Trust.DOUBTED:
+            self._of[way] = Trust.UNSEEN
+
+    def seen_open(self, way: Direction) -> None:
+        self._of[way] = Trust.OPEN
+
+    def doubt(self, way: Direction) -> None:
+        self._of[way] = Trust.DOUBTED
+
+    def found_closed(self, way: Direction) -> None:
+        self._of[way] = Trust.WELDED
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open."""
+        self._of = dict.fromkeys(BOTH_WAYS, Trust.OPEN)

@@ -12,8 +12,7 @@ from collections.abc import Collection
 from hw.ports import Direction
 from rotator.control.axis.relay_faults import limit_reached
 from rotator.control.axis.relay_gate import RelayGate
-from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import BOTH_WAYS
+from rotator.control.axis.relay_state import BOTH_WAYS, RelayState
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
 from rotator.control.sky.mount import Range

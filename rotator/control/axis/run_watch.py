@@ -14,8 +14,7 @@ from rotator.control.axis.contact_watch import ContactWatch
 from rotator.control.axis.estimator import Estimator
 from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.axis.relay_faults import WAYS, accusation, unstoppable
-from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import RelayTrusts
+from rotator.control.axis.relay_state import RelayState, RelayTrusts
 from rotator.control.axis.vain_runs import SilentRuns, VainRuns
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind, Notice

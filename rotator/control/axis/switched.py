@@ -16,8 +16,7 @@ from rotator.control.axis.goals import HomeGoal, JogGoal, PlaceAnew, SeekGoal
 from rotator.control.axis.reach import Reach, lost
 from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
-from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import BOTH_WAYS
+from rotator.control.axis.relay_state import BOTH_WAYS, RelayState
 from rotator.control.axis.run_permit import RunPermit, at_ends
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_faults import SwitchedFaults

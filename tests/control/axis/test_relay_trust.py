@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Direction
-from rotator.control.axis.relay_trust import RelayTrusts
+from rotator.control.axis.relay_state import RelayTrusts
 from rotator.exchange.motor import Trust
 
 MINUS, _, PLUS = Direction
