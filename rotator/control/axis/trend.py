@@ -123,13 +123,6 @@ class Trend:
         near = [angle_deg for seen_s, angle_deg in self._kept if abs(seen_s - at_s) <= half_s]
         return sum(near) / len(near) if near else None
 
-    def window_s(self, error_dps: float) -> float:
-        """How long the line must be for a standard error of `error_dps`."""
-        gap_s = LEAST_GAP_S
-        if len(self._kept) > 1:
-            gap_s = (self.last_s - self.since_s) / (len(self._kept) - 1)
-        return float((self.noise_deg * math.sqrt(12.0 * gap_s) / error_dps) ** (2.0 / 3.0))
-
     def _lone(self, fastest_dps: float) -> bool:
         """Whether the reading before the latest one lies apart from both its neighbours, on one side."""
         if len(self._first) < _FIRST_READINGS:

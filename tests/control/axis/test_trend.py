@@ -52,21 +52,7 @@ def test_an_axis_that_turns_and_stops_at_once_loses_no_reading(noise_deg: float)
     for count in range(200):
         turned_deg = 10.0 * STEP_S * abs(count % 40 - 20)
         trend.see(count * STEP_S, turned_deg + chance.gauss(0.0, noise_deg), 10.0)
-    kept = trend.window_s(1.0), trend.noise_deg
-    assert kept[0] == pytest.approx((kept[1] * (12.0 * STEP_S) ** 0.5) ** (2.0 / 3.0), rel=0.02), "every 0.05 s"
-
-
-@pytest.mark.parametrize("every_s", [0.05, 0.1, 0.2])
-@pytest.mark.parametrize("error_dps", [0.05, 0.2, 1.0])
-def test_a_line_of_the_length_asked_for_is_as_exact_as_asked(every_s: float, error_dps: float) -> None:
-    chance, trend = random.Random(3), Trend()
-    for count in range(400):
-        trend.see(count * every_s, chance.gauss(0.0, 0.3), 6.0)
-    window_s = trend.window_s(error_dps)
-    slope = trend.slope(trend.last_s - window_s)
-    if 5 * every_s < window_s < trend.last_s - trend.since_s:
-        assert slope is not None
-        assert slope.error_dps == pytest.approx(error_dps, rel=0.25)
+    assert len(trend._kept) == round((trend.last_s - trend.since_s) / STEP_S) + 1, "every 0.05 s"
 
 
 @pytest.mark.parametrize(
@@ -86,12 +72,3 @@ def test_a_line_is_as_exact_as_it_says_though_the_sensor_averages(
         if count > 200 and slope is not None:
             off.append((slope.speed_dps - speed_dps) / slope.error_dps)
     assert sum(each**2 for each in off) / len(off) < 1.5
-
-
-def test_the_length_is_known_from_the_first_reading_on() -> None:
-    trend = Trend()
-    lengths_s = [trend.window_s(0.5)]
-    for count in range(3):
-        trend.see(count * STEP_S, 10.0, 6.0)
-        lengths_s.append(trend.window_s(0.5))
-    assert all(0.05 < length_s < 5.0 for length_s in lengths_s)

@@ -1,1 +1,0 @@
-"""The reference tables of docs/reference/wire.md, made from the code's own command tables."""
