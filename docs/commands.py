@@ -5,10 +5,12 @@ Knows the page's order and its few sentences. The exit codes and the fields are 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from rotator.cli.failed import EXIT_CODES
-from rotator.protocols.status_object import tables
+from rotator.protocols.status_object import AXIS_FIELDS, FAULT_FIELDS, FIELDS, FLOWN_FIELDS, Field
 
 PAGE = Path(__file__).parent / "reference" / "commands.md"
 HEAD = """# Commands
@@ -27,6 +29,25 @@ STATUS = """
 The fields stay; new ones may come. `rotator tell status json` prints the same on one line.
 
 """
+
+
+def tables() -> str:
+    """The fields of the status."""
+    return "\n\n".join(
+        (
+            _list(FIELDS),
+            "Each of `azimuth` and `elevation`:",
+            _list(AXIS_FIELDS),
+            "A `fault`:",
+            _list(FAULT_FIELDS),
+            "`tracks`:",
+            _list(FLOWN_FIELDS),
+        )
+    )
+
+
+def _list(fields: Sequence[Field[Any]]) -> str:
+    return "\n".join(f"- `{field.name}` ({field.kind}): {field.meaning}" for field in fields)
 
 
 def page() -> str:

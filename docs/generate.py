@@ -10,14 +10,15 @@ from pathlib import Path
 
 from docs import session
 from docs.keys import reference
-from rotator.control import rights
-from rotator.doctor.checks import checks_table
+from docs.wire import gs232_table, rotctld_table
+from docs.wire_datagrams import pstrotator_table, pstrotatoraz_table
+from docs.wire_makers import dcu1_table, easycomm_table, prosistel_table, rc2800_table, spid_table
+from docs.wire_telescopes import lx200_table, stellarium_table
+from rotator.control.rights import TABLE, Deed, State
+from rotator.doctor.checks import CONFIGURATION, OF_THE_MACHINE, OF_THE_STATION
+from rotator.doctor.finding import Check
 from rotator.protocols.console import VERBS
-from rotator.protocols.reference.datagrams import pstrotator_table, pstrotatoraz_table
-from rotator.protocols.reference.gs232 import gs232_table, rotctld_table
-from rotator.protocols.reference.makers import dcu1_table, easycomm_table, prosistel_table, rc2800_table, spid_table
-from rotator.protocols.reference.programs import programs_table
-from rotator.protocols.reference.telescopes import lx200_table, stellarium_table
+from rotator.protocols.programs import PROGRAMS
 from rotator.store.whole import write_whole
 
 DOCS = Path(__file__).resolve().parent
@@ -29,6 +30,35 @@ def console_table() -> str:
         usage = verb.usage.replace("|", "\\|")
         rows.append(f"`{usage}` | {verb.help}")
     return "\n".join(rows) + "\n"
+
+
+def checks_table() -> str:
+    """One row for each check of the doctor, in the order of the report."""
+    checks: tuple[Check[...], ...] = (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)
+    return "\n".join(["check | looks at", "--|--", *(f"{check.name} | {check.looks_at}" for check in checks)])
+
+
+def programs_table() -> str:
+    rows = ["program | link | set in the program | how we know", "--|--|--|--"]
+    for program in PROGRAMS:
+        protocols = ", ".join(f"`{protocol}`" for protocol in program.protocols)
+        link = f"{protocols}; {program.where}" if program.where else protocols
+        rows.append(f"{program.name} | {link} | {program.settings} | {program.known}")
+    return "\n".join(rows) + "\n"
+
+
+def rights_table() -> str:
+    """The table for docs/safety.md. States that allow the same orders share a column, and orders that the same states
+    allow share a row."""
+    columns: dict[tuple[str, ...], list[str]] = {}
+    for state in State:
+        columns.setdefault(tuple(TABLE[state][deed].value for deed in Deed), []).append(state.value)
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for deed, *cells in zip(Deed, *columns, strict=True):
+        rows.setdefault(tuple(cells), []).append(deed.value)
+    head = " | ".join(["order", *map("; ".join, columns.values())])
+    lines = [" | ".join(["; ".join(deeds), *cells]) for cells, deeds in rows.items()]
+    return "\n".join([head, "|".join(["--"] * (1 + len(columns))), *lines])
 
 
 PARTS: dict[str, dict[str, Callable[[], str]]] = {
@@ -49,7 +79,7 @@ PARTS: dict[str, dict[str, Callable[[], str]]] = {
         "prosistel": prosistel_table,
         "rc2800": rc2800_table,
     },
-    "safety.md": {"rights": rights.table},
+    "safety.md": {"rights": rights_table},
     "paths/termite.md": {"session": session.block},
 }
 

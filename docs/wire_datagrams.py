@@ -1,4 +1,4 @@
-"""The lists of docs/reference/wire.md for PstRotator's UDP and PstRotatorAz's page, made as the tables in gs232.py.
+"""The lists of docs/reference/wire.md for PstRotator's UDP and PstRotatorAz's page, made as the tables in wire.py.
 
 Knows one example of each tag. Does not know what a tag does or answers: the protocol's session is asked.
 """
@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import re
 
+from docs.wire import AZIMUTH_DEG, ELEVATION_DEG, Example, shown, table
 from rotator.protocols import pstrotator, pstrotatoraz
 from rotator.protocols.pstrotator import Item, PstRotatorSession
 from rotator.protocols.pstrotatoraz import PstRotatorAzSession
-from rotator.protocols.reference.gs232 import AZIMUTH_DEG, ELEVATION_DEG, Example, shown, table
 
 _VALUES = {
     "AZIMUTH": f"{AZIMUTH_DEG:g}",
@@ -19,6 +19,11 @@ _VALUES = {
     "LLH": "54.02523,20.89581,1000",
 }
 """The values of the examples; the other tags take a 1."""
+_REQUESTS = {
+    "/PstRotatorAz.htm": "Read azimuth; `/` too",
+    "/PstRotatorAz.htm?az=235": "Azimuth: go there",
+    "/PstRotatorAz.htm?cmd=stop": "Stop everything",
+}
 
 
 def pstrotator_table() -> str:
@@ -35,8 +40,8 @@ def pstrotator_table() -> str:
 def pstrotatoraz_table() -> str:
     """Every request that the page takes, and the line of the answer in which programs look for the bearing."""
     rows: list[tuple[str, ...]] = [("request", "what it does", "the page says")]
-    for example in pstrotatoraz.EXAMPLES:
-        answer = b"".join(PstRotatorAzSession(Example()).receive(pstrotatoraz.encode(example.target)))
+    for target, help_text in _REQUESTS.items():
+        answer = b"".join(PstRotatorAzSession(Example()).receive(pstrotatoraz.encode(target)))
         bearing = re.search(rb"<p>(.*)</p>", answer)
-        rows.append((f"`GET {example.target}`", example.help, shown(bearing[1] if bearing else b"")))
+        rows.append((f"`GET {target}`", help_text, shown(bearing[1] if bearing else b"")))
     return table(rows)

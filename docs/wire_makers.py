@@ -1,4 +1,4 @@
-"""More command tables of docs/reference/wire.md: EasyComm, SPID, DCU-1, Prosistel and M2, made as those in gs232.py.
+"""More command tables of docs/reference/wire.md: EasyComm, SPID, DCU-1, Prosistel and M2, made as those in wire.py.
 
 Knows one example of each command, and how binary bytes are shown. Does not know what a command does or answers: the
 protocol's session is asked.
@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from itertools import islice
 
+from docs.wire import AZIMUTH_DEG, ELEVATION_DEG, Example, shown, table
 from rotator.protocols import dcu1, easycomm, prosistel, rc2800, spid
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.prosistel import ProsistelSession
 from rotator.protocols.rc2800 import Rc2800Session
-from rotator.protocols.reference.gs232 import AZIMUTH_DEG, ELEVATION_DEG, Example, shown, table
 from rotator.protocols.spid import PULSES, Command, Frame, Model, SpidSession, Turn
 
 _EASYCOMM_EXAMPLES = {"VL": "VL4900", "VR": "VR4900", "VU": "VU4900", "VD": "VD4900"}

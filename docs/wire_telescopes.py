@@ -1,4 +1,4 @@
-"""The tables of docs/reference/wire.md for telescope programs: LX200 and Stellarium, made as those in gs232.py.
+"""The tables of docs/reference/wire.md for telescope programs: LX200 and Stellarium, made as those in wire.py.
 
 Knows a station, a moment, and one example of each command. Does not know what a command does or answers: the protocol's
 session is asked.
@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import itertools
 
+from docs.wire import Example, shown, table
 from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.orbits.earth import Site
 from rotator.protocols import lx200, stellarium
 from rotator.protocols.lx200_session import Lx200Session
-from rotator.protocols.reference.gs232 import Example, shown, table
 from rotator.protocols.stellarium import Goto, StellariumSession
 
 AT_S = 1_798_761_600.0

@@ -1,4 +1,4 @@
-"""Who may do what in which state: the one table. The controller and the console ask it; docs/safety.md prints it.
+"""Who may do what in which state: the one table. The controller and the console ask it; docs/safety.md shows it.
 
 Knows states, orders and the cells. Knows no source, no moment, and not how an order is carried out.
 """
@@ -198,17 +198,3 @@ def holds(status: Status, source: Source | None = None) -> dict[State, str]:
     # A person on the console has a connection for each command.
     own = status.mode_by.partition("#")[0] == CONSOLE if source is None else str(source) == status.mode_by
     return held | standing_holds(status.latched, status.mode, status.mode_by, storm=status.storm, own=own)
-
-
-def table() -> str:
-    """The table for docs/safety.md. States that allow the same orders share a column, and orders that the same states
-    allow share a row."""
-    columns: dict[tuple[str, ...], list[str]] = {}
-    for state in State:
-        columns.setdefault(tuple(TABLE[state][deed].value for deed in Deed), []).append(state.value)
-    rows: dict[tuple[str, ...], list[str]] = {}
-    for deed, *cells in zip(Deed, *columns, strict=True):
-        rows.setdefault(tuple(cells), []).append(deed.value)
-    head = " | ".join(["order", *map("; ".join, columns.values())])
-    lines = [" | ".join(["; ".join(deeds), *cells]) for cells, deeds in rows.items()]
-    return "\n".join([head, "|".join(["--"] * (1 + len(columns))), *lines])

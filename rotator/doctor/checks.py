@@ -142,12 +142,6 @@ class Examination:
         return int(any(finding.ok is False for _, finding in self.findings))
 
 
-def checks_table() -> str:
-    """For docs/reference/checks.md: one row for each check, in the order of the report."""
-    checks: tuple[Check[...], ...] = (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)
-    return "\n".join(["check | looks at", "--|--", *(f"{check.name} | {check.looks_at}" for check in checks)])
-
-
 def examine(machine: Machine, path: Path | None) -> Examination:
     """`path`: the configuration file; None for the shipped one."""
     findings = [(CONFIGURATION.name, finding) for finding in _safely(CONFIGURATION.look, path)]

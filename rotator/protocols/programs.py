@@ -233,12 +233,3 @@ PROGRAMS = (
         "its source",
     ),
 )
-
-
-def programs_table() -> str:
-    rows = ["program | link | set in the program | how we know", "--|--|--|--"]
-    for program in PROGRAMS:
-        protocols = ", ".join(f"`{protocol}`" for protocol in program.protocols)
-        link = f"{protocols}; {program.where}" if program.where else protocols
-        rows.append(f"{program.name} | {link} | {program.settings} | {program.known}")
-    return "\n".join(rows) + "\n"

@@ -28,21 +28,6 @@ _SAME_SITE = ("", "none", "same-origin")
 
 
 @dataclass(frozen=True, slots=True)
-class Example:
-    """One row of the list: a request, and what it does."""
-
-    target: str
-    help: str
-
-
-EXAMPLES = (
-    Example("/PstRotatorAz.htm", "Read azimuth; `/` too"),
-    Example("/PstRotatorAz.htm?az=235", "Azimuth: go there"),
-    Example("/PstRotatorAz.htm?cmd=stop", "Stop everything"),
-)
-
-
-@dataclass(frozen=True, slots=True)
 class Request:
     """A whole request: its target, and its headers with names in small letters."""
 

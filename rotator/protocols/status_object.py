@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Generic, TypeVar
 
-from hw.ports import Axis
 from rotator.exchange.faults import Fault
 from rotator.exchange.status import AxisStatus, Flown, Status
 
@@ -130,21 +129,6 @@ def as_object(status: Status) -> dict[str, Plain]:
     return {field.name: field.of(status) for field in FIELDS}
 
 
-def tables() -> str:
-    """The fields, for the documentation."""
-    return "\n\n".join(
-        (
-            _list(FIELDS),
-            f"Each of `{Axis.AZIMUTH.value}` and `{Axis.ELEVATION.value}`:",
-            _list(AXIS_FIELDS),
-            "A `fault`:",
-            _list(FAULT_FIELDS),
-            "`tracks`:",
-            _list(FLOWN_FIELDS),
-        )
-    )
-
-
 def _axis(axis: AxisStatus) -> dict[str, Plain]:
     return {field.name: field.of(axis) for field in AXIS_FIELDS}
 
@@ -156,8 +140,3 @@ def _fault(fault: Fault | None) -> dict[str, Plain] | None:
 def _angle(angle_deg: float | None) -> float | None:
     # Adding zero turns -0.0, from a noisy pot at its stop, into 0.0.
     return None if angle_deg is None else round(angle_deg, DIGITS) + 0.0
-
-
-def _list(fields: Sequence[Field[Of]]) -> str:
-    rows = (f"- `{field.name}` ({field.kind}): {field.meaning}" for field in fields)
-    return "\n".join(rows)

@@ -19,7 +19,7 @@ from typing_extensions import TypedDict
 from hw.ports import Axis, HardwareError
 from rotator.calibrating.question import Question
 from rotator.config.model import Config
-from rotator.protocols.reference.programs import PROGRAMS
+from rotator.protocols.programs import PROGRAMS
 from rotator.setup.answered import Asked, as_they_stand, asked
 from rotator.setup.machine import this_machine
 from rotator.web.box_file import Begun, BoxFile, MayStop

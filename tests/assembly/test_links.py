@@ -8,6 +8,7 @@ from typing import get_args
 
 import pytest
 
+from docs.wire import Example
 from firmware_sim.clock import SimClock
 from rotator.assembly.links import build_links
 from rotator.assembly.sessions import session_maker
@@ -25,7 +26,6 @@ from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.protocols import pstrotatoraz
 from rotator.protocols.pstrotatoraz import response
-from rotator.protocols.reference.gs232 import Example
 from rotator.runtime.loop import ControlLoop
 from tests.tables import every_row
 

@@ -7,6 +7,7 @@ from datetime import datetime, timedelta
 
 import pytest
 
+from docs.wire import Example
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
 from rotator.links.wire import Wire
@@ -14,7 +15,6 @@ from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import HEADS, Way
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.reference.gs232 import Example
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.rotctld_session import RotctldSession
 

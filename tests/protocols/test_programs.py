@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import get_args
 
 from rotator.config.links import ProtocolName
-from rotator.protocols.reference.programs import PROGRAMS, Program
+from rotator.protocols.programs import PROGRAMS, Program
 from tests.protocols.fed import Notebook, connected
 from tests.tables import every_row
 
