@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
 from firmware_sim.rotors.rotor import SimRotor
@@ -23,48 +24,38 @@ _ELSEWHERE = (
 )
 
 
+@dataclass(eq=False)
 class Buses:
-    """`opened` closes everything in the end. `chip`: the path of the GPIO chip, where the file says it.
+    """`opened` closes everything in the end. `header`: the path of the GPIO chip, where the file says it.
 
-    `gpio` and `spidev` return the packages gpiod and spidev, or objects of their shape; `paths` lists the GPIO chips,
-    None: those in /dev. Raises HardwareError.
+    `gpiod` and `spidev` return the packages of their name, or objects of their shape; `paths` lists the GPIO chips, None
+    those in /dev. Raises HardwareError.
     """
 
-    def __init__(
-        self,
-        opened: ExitStack,
-        *,
-        gpio: Callable[[], Any],
-        paths: list[str] | None,
-        open_bus: Callable[[int], SmbusI2C],
-        spidev: Callable[[], Any],
-        clock: Callable[[], float],
-        sleep: Callable[[float], None],
-        chip: str | None = None,
-    ) -> None:
-        self.opened = opened
-        self._gpio = gpio
-        self.clock = clock
-        self.sleep = sleep
-        self._paths = paths
-        self._open_bus = open_bus
-        self._spidev = spidev
-        self._chip = chip
-        self._buses: dict[int, SmbusI2C] = {}
+    opened: ExitStack
+    _: KW_ONLY
+    gpiod: Callable[[], Any]
+    paths: list[str] | None
+    open_bus: Callable[[int], SmbusI2C]
+    spidev: Callable[[], Any]
+    clock: Callable[[], float]
+    sleep: Callable[[float], None]
+    header: str | None = None
+    _buses: dict[int, SmbusI2C] = field(default_factory=dict, init=False)
 
     @property
     def gpio(self) -> Any:
         """The package gpiod, or an object of its shape."""
-        return self._gpio()
+        return self.gpiod()
 
     def chip(self) -> str:
         """The path of the chip with the lines of the header: what the file says, or found by its label."""
-        if self._chip is None:
+        if self.header is None:
             try:
-                self._chip = find_chip(self.gpio, PI_HEADER_LABEL, self._paths)
+                self.header = find_chip(self.gpio, PI_HEADER_LABEL, self.paths)
             except NoHeaderError as fault:
                 raise HardwareError(f"{fault}. {_ELSEWHERE}") from fault
-        return self._chip
+        return self.header
 
     def outputs(self, consumer: str, pins: Mapping[str, int], *, active_low: bool = False) -> GpioOutputs:
         outputs = GpioOutputs(self.gpio, self.chip(), pins, consumer=consumer, active_low=active_low)
@@ -86,7 +77,7 @@ class Buses:
 
     def bus(self, number: int) -> SmbusI2C:
         if number not in self._buses:
-            bus = self._open_bus(number)
+            bus = self.open_bus(number)
             self.opened.callback(bus.close)
             self._buses[number] = bus
         return self._buses[number]
@@ -106,7 +97,7 @@ class Buses:
             if pin not in KERNEL_SELECTS:
                 raise HardwareError(f"SPI: {use.table}.{key} = {pin} is no select of the kernel's SPI: take 8 or 7")
         selects = {key: KERNEL_SELECTS[pin] for key, pin in use.selects.items()}
-        spi = KernelSpi(self._spidev(), 0, selects, mode=use.mode, speed_hz=use.speed_hz)
+        spi = KernelSpi(self.spidev(), 0, selects, mode=use.mode, speed_hz=use.speed_hz)
         self.opened.callback(spi.close)
         return spi
 
@@ -129,12 +120,12 @@ class Board(Buses):
         gpiod: Any = world.gpio if world else real_gpiod()
         super().__init__(
             opened,
-            gpio=lambda: gpiod,
+            gpiod=lambda: gpiod,
             paths=world.gpio.paths() if world else None,
             open_bus=(lambda number: SmbusI2C(world.i2c(number), "simulated bus")) if world else open_bus,
             spidev=(lambda: world.spidev) if world else real_spidev,
             clock=clock,
             sleep=sleep,
-            chip=chip,
+            header=chip,
         )
         self.world = world

@@ -216,13 +216,13 @@ class Chips:
     def _buses(self, opened: ExitStack, config: Config) -> Buses:
         return Buses(
             opened,
-            gpio=self.gpio,
+            gpiod=self.gpio,
             paths=self.paths,
             open_bus=self.open_bus,
             spidev=self.spidev,
             clock=self.clock,
             sleep=self.sleep,
-            chip=config.relays.chip,
+            header=config.relays.chip,
         )
 
     def compass(self, bus: SmbusI2C, config: Config) -> Bno055:

@@ -21,7 +21,7 @@ from rotator.cli.lines import in_front
 from rotator.cli.output import Output
 from rotator.exchange.spoken import spoken
 from rotator.runtime.signals import never_pause
-from rotator.views.plain_characters import ascii_only
+from rotator.views.frame import ascii_only
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType

@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
-from rotator.control.flight import Flight
-from rotator.control.following import QUIET_S, Following
+from rotator.control.flight import QUIET_S, Flight, Following
 from rotator.control.going_round import GoingRound
 from rotator.control.sky.angles import Coordinates
 from rotator.control.sky.goal import Goals

@@ -14,7 +14,7 @@ from rotator.control.authority import Authority
 from rotator.control.axis.absent import AbsentAxis
 from rotator.control.axis.build import build_axis
 from rotator.control.axis.readings import Reading
-from rotator.control.boom import with_boom
+from rotator.control.both_axes import kept_off, with_boom
 from rotator.control.commands import Acknowledge, Command, Errand, Place, Run, Turns
 from rotator.control.cycles import Cycles, PassStarts
 from rotator.control.fence import Fence
@@ -23,7 +23,6 @@ from rotator.control.refused import Refused
 from rotator.control.rights import deed_of
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
-from rotator.control.shared_supply import kept_off
 from rotator.control.sky.angles import FULL_TURN_DEG
 from rotator.exchange.faults import Notice
 from rotator.exchange.flight_order import Fly, Stream, TakeTurn

@@ -1,7 +1,8 @@
-"""A frame of rows and tables that fits into the terminal.
+"""A frame of rows and tables that fits into the terminal, and the same for a terminal that has only ASCII.
 
-On a small terminal whole rows and whole columns are left out before a text is cut. Knows widths, heights, and the ranks
-by which rows and columns are left out. Does not know the content of the rows.
+On a small terminal whole rows and whole columns are left out before a text is cut. Knows widths, heights, the ranks by
+which rows and columns are left out, and characters: the console of a Raspberry Pi has no dots and no part blocks. Does
+not know the content of the rows.
 """
 
 from __future__ import annotations
@@ -151,3 +152,31 @@ def fewer(rows: list[Row], height: int) -> list[Row]:
     """The rows that fit into this height."""
     keep = sorted(range(len(rows)), key=lambda at: (rows[at].rank, at))[: max(height, 0)]
     return [rows[at] for at in sorted(keep)]
+
+
+_ASCII = str.maketrans(
+    {
+        **dict.fromkeys("╭╮╰╯┏┓┗┛", "+"),
+        **dict.fromkeys("─━", "-"),
+        **dict.fromkeys("│┃▕", "|"),
+        **dict.fromkeys("▏▎", "."),
+        **dict.fromkeys("▍▌▋", ":"),
+        **dict.fromkeys("▊▉█", "#"),
+        **dict(zip("░▒●○◆◇◈→…–—✓✗≈", ":x*.#o@>~--vx~", strict=True)),
+        **{chr(code): "." for code in range(0x2801, 0x2900)},
+    }
+)
+_NO_UNICODE = frozenset({"linux", "vt100", "vt102", "vt220", "ansi", "cons25", "dumb", "unknown"})
+"""Values of TERM. The text mode of Linux has only some hundred characters, with any encoding."""
+
+
+def ascii_only(encoding: str, term: str) -> bool:
+    """Whether a terminal of this name, with this encoding, shows only ASCII."""
+    return term in _NO_UNICODE or "utf" not in encoding.lower()
+
+
+def in_ascii(text: Text) -> Text:
+    """The text with the same cells and colours. The degree sign stays: Latin-1 and the Linux console have it."""
+    plain = text.copy()
+    plain.plain = text.plain.translate(_ASCII)
+    return plain

@@ -19,8 +19,7 @@ from rotator.exchange.spoken import spoken
 from rotator.exchange.status import Status
 from rotator.views import sky_plot
 from rotator.views.axis_rows import WIDE, Ranks, axis_rows, lamps
-from rotator.views.frame import ENDLESS, Column, Framed, Row, beside, boxed, fewer, table, wrapped
-from rotator.views.plain_characters import in_ascii
+from rotator.views.frame import ENDLESS, Column, Framed, Row, beside, boxed, fewer, in_ascii, table, wrapped
 from rotator.views.sky_plot import Way
 from rotator.views.words import (
     ALARMS,

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.following import QUIET_S
+from rotator.control.flight import QUIET_S
 from rotator.exchange.flight_order import AxisPlan, Fly, Stream
 from rotator.exchange.orders import Aim, Jog, Leave, Mode, Nudge, Order, Park, Release, SetMode, Stop
 
