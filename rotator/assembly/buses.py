@@ -28,8 +28,8 @@ _ELSEWHERE = (
 class Buses:
     """`opened` closes everything in the end. `header`: the path of the GPIO chip, where the file says it.
 
-    `gpiod` and `spidev` return the packages of their name, or objects of their shape; `paths` lists the GPIO chips, None
-    those in /dev. Raises HardwareError.
+    `gpiod` and `spidev` return the packages of their name, or objects of their shape. `paths` lists the GPIO chips;
+    None: those in /dev. Raises HardwareError.
     """
 
     opened: ExitStack
