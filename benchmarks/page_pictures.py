@@ -132,8 +132,7 @@ def _each(browser: Any, into: Path, paired: Any, view: str, high: int) -> None:
                     page.locator("summary", has_text="POST /api/point").click()
                     page.locator("summary", has_text="POST /api/point").scroll_into_view_if_needed()
             page.wait_for_timeout(1500)
-            if page.locator(".troubles").count():
-                raise RuntimeError(f"the box has a fault: {page.locator('.troubles').inner_text()}")
+            page.locator(".troubles").wait_for(state="detached")  # a busy machine is late with a reading
             page.screenshot(path=into / f"page-{f'{view}-' if view else ''}{name}-{light}.png")
             page.context.close()
 
