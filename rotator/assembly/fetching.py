@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from rotator.assembly.sky import fetched_folder
 from rotator.config.links import address
 from rotator.config.model import Config
-from rotator.links.allowed import PRIVATE, Allowed
+from rotator.links.listening import PRIVATE, Allowed
 from rotator.orbits.elements import Elements
 from rotator.runtime.own_process import OwnProcess
 from rotator.store import fetches

@@ -22,7 +22,7 @@ from rotator.assembly.sessions import BINARY, HTTP, session_maker
 from rotator.config.links import FOLLOW, Link, address
 from rotator.control.sky.mount import Mount
 from rotator.exchange.sources import Source
-from rotator.links.allowed import Allowed
+from rotator.links.listening import Allowed
 from rotator.links.pty import PtyLink
 from rotator.links.tcp import TcpLink
 from rotator.links.wire import Wire

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rotator.config.model import Config
-from rotator.config.station import StationTable
+from rotator.config.sky import StationTable
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.element_files import Read, read_file

@@ -36,7 +36,7 @@ from rotator.cli.screen import log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import monitor_path
-from rotator.config.station import NO_PLACE
+from rotator.config.sky import NO_PLACE
 from rotator.control.refused import is_not_fitted
 from rotator.exchange.spoken import held_by, spoken
 from rotator.orbits.catalogue import Unknown

@@ -31,8 +31,7 @@ from rotator.control.sky.mount import Mount
 from rotator.control.sky.named_turns import axis_rows, smooth_turns
 from rotator.protocols.table_text import FORM
 from rotator.rehearsal.flight import Summary, fly, plant_maker
-from rotator.rehearsal.passes import SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
-from rotator.rehearsal.sky_target import next_pass
+from rotator.rehearsal.passes import SHIPPED, Pass, PassError, find_pass, next_pass, read_pass, shipped_names
 from rotator.store.whole import write_whole
 from rotator.views.pass_svg import Flown, draw
 from rotator.views.trace import Sample

@@ -24,7 +24,7 @@ from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import INSTALLED
-from rotator.config.station import no_place
+from rotator.config.sky import no_place
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass

@@ -37,8 +37,7 @@ from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.places import STATE
 from rotator.config.sensors import Angle, CompassTable
 from rotator.config.sim import Sim
-from rotator.config.sky import SkyTable
-from rotator.config.station import StationTable
+from rotator.config.sky import SkyTable, StationTable
 from rotator.config.table import FilePath, Table
 
 T = TypeVar("T")

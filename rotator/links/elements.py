@@ -15,8 +15,7 @@ from collections.abc import Awaitable, Callable, Sequence
 
 from aiohttp import ETag, web
 
-from rotator.links.allowed import Allowed
-from rotator.links.listening import cannot_listen
+from rotator.links.listening import Allowed, cannot_listen
 from rotator.orbits import omm
 from rotator.orbits.elements import Elements
 

@@ -1,7 +1,7 @@
-"""Why the box cannot listen at an address, and what to write into its file instead; and this machine's own addresses.
+"""Why the box cannot listen at an address, and what to write into its file instead; and which machines may connect.
 
 Knows the usual errors: the PC's address in place of the box's own, a name that does not exist, a port for root. Knows
-network cards. Opens no port.
+network cards and networks. Opens no port, and knows no link.
 """
 
 from __future__ import annotations
@@ -12,9 +12,46 @@ import ipaddress
 import os
 import socket
 import struct
+from collections.abc import Sequence
 from contextlib import suppress
 
 from rotator.links.wire import reason
+
+PRIVATE = (
+    "127.0.0.0/8",
+    "10.0.0.0/8",
+    "172.16.0.0/12",
+    "192.168.0.0/16",
+    "169.254.0.0/16",
+    "::1",
+    "fc00::/7",
+    "fe80::/10",
+)
+"""This computer, and the networks of homes and clubs."""
+
+
+class Allowed:
+    """The networks whose machines may connect, such as "192.168.1.0/24", "fd00::/8" or one address.
+
+    `networks` None: every machine may connect. Raises ValueError for a text that is no network.
+    """
+
+    def __init__(self, networks: Sequence[str] | None = None) -> None:
+        # Not strict: "192.168.1.5/24" stands for the whole network 192.168.1.0/24.
+        self._networks = None if networks is None else [ipaddress.ip_network(text, strict=False) for text in networks]
+
+    def __call__(self, host: str) -> bool:
+        """Whether the machine with this address may connect."""
+        if self._networks is None:
+            return True
+        try:
+            address = ipaddress.ip_address(host.partition("%")[0])
+        except ValueError:
+            return False
+        # A socket for both families shows an IPv4 machine as ::ffff:192.168.1.5.
+        mapped = address.ipv4_mapped if isinstance(address, ipaddress.IPv6Address) else None
+        return any((mapped or address) in network for network in self._networks)
+
 
 _ADDRESS, _NETMASK = 0x8915, 0x891B
 """SIOCGIFADDR and SIOCGIFNETMASK of linux/sockios.h."""

@@ -9,8 +9,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 
-from rotator.links.allowed import Allowed
-from rotator.links.listening import cannot_listen
+from rotator.links.listening import Allowed, cannot_listen
 from rotator.links.stream import Clients
 from rotator.links.wire import LinkError, Wire
 from rotator.protocols.session import Session

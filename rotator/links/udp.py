@@ -16,8 +16,7 @@ from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Any
 
-from rotator.links.allowed import Allowed
-from rotator.links.listening import cannot_listen
+from rotator.links.listening import Allowed, cannot_listen
 from rotator.links.wire import Conversation, LinkError, Wire, reason
 from rotator.protocols.lines import STOP
 from rotator.protocols.session import Session

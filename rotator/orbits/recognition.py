@@ -18,10 +18,9 @@ from rotator.exchange.program_clock import ProgramClock
 from rotator.exchange.sources import Source
 from rotator.orbits.chance import MOST_LIKELY, Known
 from rotator.orbits.explaining import Explained, explained
-from rotator.orbits.heard_orders import FASTEST_DPS, LONGEST_GAP_S, HeardOrders
 from rotator.orbits.rising import LOWEST_DEG, Rising, Soon, soon_rising, waits_for
 from rotator.orbits.sight import NotThere, Sight, Target
-from rotator.orbits.stream_fit import CLOCKS_S, Heard, SampledPath
+from rotator.orbits.stream_fit import CLOCKS_S, FASTEST_DPS, LONGEST_GAP_S, Heard, HeardOrders, SampledPath
 
 AGAIN_S = 2.0
 """Seconds until the next fit if as many orders as are kept have shown no satellite."""

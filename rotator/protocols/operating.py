@@ -10,7 +10,7 @@ import math
 from dataclasses import replace
 
 from hw.ports import Axis
-from rotator.config.station import NO_PLACE
+from rotator.config.sky import NO_PLACE
 from rotator.control.rights import Deed, State, deed_of, hindrance, holds, mode_words
 from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.control.sky.timed_table import TimedTable

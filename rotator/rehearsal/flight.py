@@ -16,9 +16,8 @@ from firmware_sim.rotors.rotor import SimRotor
 from rotator.config.model import Config
 from rotator.control.sky.mount import counted_target
 from rotator.rehearsal.overhearing import Named
-from rotator.rehearsal.passes import Pass
+from rotator.rehearsal.passes import Pass, SkyTarget
 from rotator.rehearsal.plants import ArduinoPlant, BoxPlant, Plant
-from rotator.rehearsal.sky_target import SkyTarget
 from rotator.views.trace import Sample, errors_deg, p95, rms
 
 SAMPLE_S = 0.05

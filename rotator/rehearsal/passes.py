@@ -1,20 +1,37 @@
-"""A satellite pass from a CSV file with the columns `t,az,el`, in seconds and degrees; rows at any interval.
+"""A satellite pass to fly: from a CSV file with the columns `t,az,el`, or the next one of a target over the station.
 
-Knows the passes that come with the program, and how to interpolate between rows. A table with an azimuth above 360 or
-an elevation above 90 names its turns, as a program does that plans by itself. Does not know the rotor.
+Knows the passes that come with the program, how to interpolate between rows, and the configuration's elements. A table
+with an azimuth above 360 or an elevation above 90 names its turns, as a program does that plans by itself. Does not
+know the rotor.
 """
 
 from __future__ import annotations
 
 import difflib
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from rotator.assembly.sky import build_catalogue, build_site
+from rotator.assembly.tracking import TrackedBox
+from rotator.config.model import Config
+from rotator.config.sky import NO_PLACE
 from rotator.control.sky.known_path import Row, direction_at, rows_around
+from rotator.control.sky.mount import Mount
 from rotator.control.sky.named_turns import names_turns, on_the_sky
 from rotator.control.sky.timed_table import TimedTable
+from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orbits.earth import Site
+from rotator.orbits.passes import passes
+from rotator.orbits.sight import NotThere
+from rotator.orbits.targets import find
 from rotator.protocols.table_text import TableError, no_text, read_table
+from rotator.rehearsal.overhearing import PlansAtOnce
+from rotator.runtime.loop import ControlLoop
 from rotator.store.plain import NoPlainFileError, read_plain
+from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.next_flight import AHEAD_S, does_not_rise, target_path
+from rotator.tracking.tracker import Tracker
 
 SHIPPED = Path(__file__).parent / "shipped"
 """Twelve passes of real satellites over 48.85° N, 2.35° E, from AOS to LOS, a row a second."""
@@ -101,3 +118,44 @@ def _text(path: Path) -> str:
         raise PassError(f"{path}: cannot be read: {fault.strerror}") from fault
     except UnicodeDecodeError as fault:
         raise PassError(no_text(str(path))) from fault
+
+
+LONGEST_S = 7200.0
+"""Sun and Moon are up for half a day, which takes minutes to fly and shows nothing more."""
+
+
+@dataclass(frozen=True, slots=True)
+class SkyTarget:
+    """`begin_utc_s`: when its pass begins."""
+
+    words: str
+    begin_utc_s: float
+    config: Config
+    site: Site
+    catalogue: Catalogue
+
+    def tracker(self, loop: ControlLoop, mount: Mount) -> Tracker:
+        """The tracker of a box in simulated time."""
+        sky = KnownSky(self.site, self.catalogue)
+        return Tracker(sky, PlansAtOnce(), TrackedBox(self.config, loop, mount), lambda: True)
+
+
+def next_pass(config: Config, words: str, after_utc_s: float) -> tuple[Pass, SkyTarget]:
+    """The target's first pass that ends after that moment, from where it rises. Raises PassError."""
+    site, catalogue = build_site(config.station), build_catalogue(config)
+    if site is None:
+        raise PassError(NO_PLACE)
+    try:
+        target = find(words, site, catalogue)
+        found = next(passes(target, after_utc_s, after_utc_s + AHEAD_S), None)
+    except (Unknown, NotThere) as reason:
+        raise PassError(str(reason)) from None
+    if found is None:
+        raise PassError(does_not_rise(target))
+    if found.aos_s is None or found.los_s is None or not math.isfinite(found.los_s - found.aos_s):
+        raise PassError(f"{target.name} does not rise and set: there is no pass to fly")
+    until_s, name = found.los_s, target.name
+    if until_s - found.aos_s > LONGEST_S:
+        until_s, name = found.aos_s + LONGEST_S, f"{name} (its first {LONGEST_S / 3600:.0f} hours)"
+    rows = target_path(target, found.aos_s, until_s, apart_s=found.aos_s).rows
+    return Pass(name, rows), SkyTarget(words, found.aos_s, config, site, catalogue)

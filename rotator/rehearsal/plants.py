@@ -31,8 +31,7 @@ from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 from rotator.rehearsal.overhearing import Named, Overhearing
-from rotator.rehearsal.passes import Pass
-from rotator.rehearsal.sky_target import SkyTarget
+from rotator.rehearsal.passes import Pass, SkyTarget
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.next_flight import Now

@@ -9,7 +9,7 @@ import ipaddress
 import re
 from collections.abc import Callable, Iterator, Mapping
 
-from rotator.config.station import StationTable
+from rotator.config.sky import StationTable
 from rotator.setup.machine import Machine
 from rotator.setup.question import Choice, Question
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from rotator.config.station import NO_PLACE
+from rotator.config.sky import NO_PLACE
 from rotator.exchange.orders import Aim
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site

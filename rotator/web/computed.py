@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from rotator.config.station import NO_PLACE
+from rotator.config.sky import NO_PLACE
 from rotator.exchange.foreign import json_of
 
 ERROR_KEPT_S, TAKES_S = 10.0, 120.0

@@ -17,7 +17,7 @@ from aiohttp import web
 
 from rotator.exchange.foreign import json_of
 from rotator.exchange.sources import PAGE, Source
-from rotator.links.allowed import PRIVATE, Allowed
+from rotator.links.listening import PRIVATE, Allowed
 from rotator.protocols.methods import WrongValuesError
 from rotator.store.paired import Paired
 from rotator.web import assets

@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from rotator.control.seen_turning import SeenTurning
+from rotator.control.axis.trend import SeenTurning
 from tests.tables import every_row
 
 

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
-from rotator.links.allowed import Allowed
+from rotator.links.listening import Allowed
 from rotator.links.tcp import TcpLink
 from rotator.links.wire import Wire
 from tests.tables import every_row

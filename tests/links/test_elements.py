@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from rotator.fetching.download import Answer, Question, ask
-from rotator.links.allowed import Allowed
 from rotator.links.elements import MOST_CLIENTS, ElementsServer
+from rotator.links.listening import Allowed
 from rotator.orbits import omm
 from rotator.orbits.catalogue import Catalogue
 from tests.orbits.skyfield_oracle import TLE

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from rotator.exchange.sources import Source
-from rotator.links.allowed import Allowed
+from rotator.links.listening import Allowed
 from rotator.links.udp import FORGOTTEN_AFTER_S, MOST_BYTES, MOST_SENDERS, Report, UdpLink
 from rotator.links.wire import Wire
 from rotator.protocols.pstrotator import PstRotatorSession

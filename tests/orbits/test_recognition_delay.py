@@ -15,10 +15,9 @@ import pytest
 from benchmarks.recognition import catalogue
 from benchmarks.recognition_delay import EARLY_S, ROUNDINGS, Program, recognised_after_s, rises, used
 from rotator.orbits.chance import Known
-from rotator.orbits.heard_orders import KEPT
 from rotator.orbits.recognition import StreamWatch
 from rotator.orbits.satellite import Satellite
-from rotator.orbits.stream_fit import ORDERS
+from rotator.orbits.stream_fit import KEPT, ORDERS
 from tests.search import examples
 from tests.tables import every_row
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rotator.config.station import NO_PLACE
+from rotator.config.sky import NO_PLACE
 from rotator.control.sky.timed_table import TimedTable
 from rotator.exchange.orders import GiveBack, Release
 from rotator.protocols.console_session import MOST_TABLE_LINES, ConsoleSession

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rotator.config.load import parse
-from rotator.rehearsal.sky_target import LONGEST_S, next_pass
+from rotator.rehearsal.passes import LONGEST_S, next_pass
 from tests.orbits import skyfield_oracle
 
 CONFIG = parse(f'[station]\nlocator = "JO62qm"\n[sky]\nelements = ["{skyfield_oracle.TLE}"]\n', "station.toml")

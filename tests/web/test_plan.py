@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rotator.config.station import NO_PLACE
+from rotator.config.sky import NO_PLACE
 from rotator.web.computed import ERROR_KEPT_S, Computed
 from rotator.web.plan import KEPT_S, coming_passes
 from tests.web.conftest import PATIENCE_S

@@ -15,7 +15,7 @@ from rotator.control.axis.goals import HomeGoal, JogGoal, SeekGoal, jog
 from rotator.control.axis.readings import NORMAL, Reading
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import PositionedSettings, SwitchedSettings
-from rotator.control.seen_turning import SeenTurning
+from rotator.control.axis.trend import SeenTurning
 from rotator.control.sky.angles import FULL_TURN_DEG
 from rotator.control.sky.goal import AimGoal
 from rotator.exchange.faults import Fault, Missing, Notice

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 from hw.ports import Axis
 from rotator.control.axis.readings import LOOK_S
-from rotator.control.axis.vain_moves import LeftBehind, VainMoves
+from rotator.control.axis.vain_runs import LeftBehind, VainMoves
 from rotator.control.commands import Steer
 from rotator.exchange.faults import Fault, FaultKind
 

@@ -1,4 +1,5 @@
-"""How fast an axis really turns: a straight line through its latest readings, and how exact that line is.
+"""How fast an axis really turns: a straight line through its latest readings, and how exact that line is; and how fast
+one turns that the box does not drive.
 
 Knows readings, when they were taken and how much they scatter. Knows no motor, no relay and no rule. Readings may be
 missing: the line lies through the others.
@@ -151,3 +152,46 @@ class Trend:
         above = off_deg > _MEDIAN * scatter * self.noise_deg
         noise_deg = self.noise_deg * _NOISE_STEP if above else self.noise_deg / _NOISE_STEP
         self.noise_deg = min(max(noise_deg, _LEAST_NOISE_DEG), _MOST_NOISE_DEG)
+
+
+WINDOW_S = 1.0
+LEAST_S = 0.9
+"""Angles over a shorter time show no speed: the antenna may coast a little longer than its known coast."""
+SLOWEST_DPS = 0.5
+NOISES = 8.0
+"""A change of the angle is a turn when it is more than this many times its noise."""
+
+
+class SeenTurning:
+    """How fast an axis turns that the box does not drive: by a welded relay, a hand at the control box, or the wind.
+
+    The speed is for the screens, on which a person must see at a glance that the antenna turns; the faults stop it.
+    `note` each of its angles, and ask for the speed.
+    """
+
+    def __init__(self) -> None:
+        self._angles: deque[tuple[float, float]] = deque()
+
+    def note(self, at_s: float, angle_deg: float | None) -> None:
+        """`angle_deg`: None while the sensor is out."""
+        if angle_deg is None:
+            self._angles.clear()
+            return
+        self._angles.append((at_s, angle_deg))
+        while at_s - self._angles[0][0] > WINDOW_S:
+            self._angles.popleft()
+
+    def driven(self) -> None:
+        """The axis is driven, or coasts: its present motion was ordered."""
+        self._angles.clear()
+
+    def speed_dps(self, noise_deg: float) -> float:
+        """Clockwise or up is positive; 0: it stands, as far as can be seen."""
+        if not self._angles:
+            return 0.0
+        (first_s, first_deg), (last_s, last_deg) = self._angles[0], self._angles[-1]
+        seconds, moved_deg = last_s - first_s, last_deg - first_deg
+        if seconds < LEAST_S or abs(moved_deg) < NOISES * noise_deg:
+            return 0.0
+        speed_dps = moved_deg / seconds
+        return speed_dps if abs(speed_dps) >= SLOWEST_DPS else 0.0

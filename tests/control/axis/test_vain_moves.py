@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.control.axis.vain_moves import LeftBehind, VainMoves
+from rotator.control.axis.vain_runs import LeftBehind, VainMoves
 
 COMING_DEG = 0.5
 
