@@ -5,7 +5,7 @@ Knows the short texts that displays and protocols have for them. Knows neither w
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, IntFlag
 
 from hw.ports import Axis
@@ -234,6 +234,15 @@ class Fault:
         return self._words[1]
 
     @property
+    def exceeded(self) -> str:
+        """What was measured, and the limit that it broke."""
+        return f"{self.measured}, limit {self.limit}" if self.limit else self.measured
+
+    def told(self, words: str) -> Fault:
+        """The same, with these words in place of what was measured and its limit."""
+        return replace(self, measured=words, limit="")
+
+    @property
     def _words(self) -> tuple[str, str, str]:
         """Text, LCD, and advice, as they fit the sensor of the axis."""
         own = self.kind.text, self.kind.lcd, self.kind.advice
@@ -242,10 +251,9 @@ class Fault:
 
     def __str__(self) -> str:
         loud = f"{self.act_now} " if self.act_now else ""
-        limit = f", limit {self.limit}" if self.limit else ""
         text, _, advice = self._words
         advice = (self.advice or advice).replace("AXIS", self.axis.value)
-        seen = f"{self.axis.value}: {text}: {self.measured}{limit}"
+        seen = f"{self.axis.value}: {text}: {self.exceeded}"
         return f"{loud}{seen}. {advice} (rotator help {self.kind.anchor})"
 
 

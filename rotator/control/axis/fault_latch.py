@@ -63,7 +63,7 @@ class FaultLatch:
         looked_s, self._noted_s = min(now_s - self._noted_s, LOOK_S), now_s
         self._in_order_s = self._in_order_s + looked_s if in_order and not (found or cause) else 0.0
         if self.fault and self.fault.kind in LATE and self._has_passed(now_s):
-            self.fault = replace(self.fault, passing=True, measured=f"{self.fault.measured}; {PASSED}")
+            self.fault = replace(self.fault.told(f"{self.fault.exceeded}; {PASSED}"), passing=True)
             return False
         if self.fault and self.fault.passing:
             self.fault = self._named(found)
@@ -81,7 +81,7 @@ class FaultLatch:
             self._tries_s.extend([now_s] * tries)
             self.kind = fault.kind if tries else self.kind
         if self.needs_person(now_s):
-            fault = replace(fault, measured=f"{fault.measured}; {OFTEN}")
+            fault = fault.told(f"{fault.exceeded}; {OFTEN}")
         self.fault = self._named(fault)
         return True
 

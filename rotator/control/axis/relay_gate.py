@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Protocol
 
 from hw.ports import Direction
@@ -145,7 +144,7 @@ class RelayGate:
         if trust is Trust.OPEN or relays.off_for_s(now_s) < SETTLED_AFTER_S:
             return fault
         way = WAYS[self._settings.axis, relays.last]
-        unseen = replace(fault, measured=f"{fault.measured}, and it may still run {way}")
+        unseen = fault.told(f"{fault.exceeded}, and it may still run {way}")
         return unstoppable(unseen, master=self._settings.master)
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
