@@ -293,7 +293,9 @@ class Status:
             return f"within tolerance: {off_deg:.1f}° from its target{sky}; it turns from {each.tolerance_deg:.1f}° on"
         if off_deg >= SHOWN_OFF_DEG and not each.notices:
             return "waits while the other axis turns" if self.moving else "waits for its motor"
-        if axis is Axis.ELEVATION and wanted_deg is not None and wanted_deg < target_deg - SHOWN_OFF_DEG:
+        # While a path is flown the aim goes ahead of it.
+        low = self.flown is None and wanted_deg is not None and wanted_deg < target_deg - SHOWN_OFF_DEG
+        if axis is Axis.ELEVATION and low:
             return f"{wanted_deg:.1f}° is below its range or the horizon: it stays at {target_deg:.1f}°"
         return ""
 

@@ -109,8 +109,11 @@ class Operating:
 
     def _go_on(self) -> str:
         """A person lets it move again, and says that it shall go on with what it did before."""
-        left = self.goes_on_with
-        return self._of_another() or (self._obey(Release()) or self._track(left) if left else NOTHING_LEFT)
+        left, status = self.goes_on_with, self._box.status()
+        if not left and (status.flown is None or not status.faults):
+            return self._of_another() or NOTHING_LEFT
+        # What a fault has not ended goes on by itself.
+        return self._of_another() or self._obey(Release()) or (self._track(left) if left else "")
 
     @property
     def goes_on_with(self) -> str:

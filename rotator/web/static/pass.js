@@ -146,7 +146,7 @@ function until(now, next) {
 export function PassMode({ now, station, hello, fresh, say }) {
   const [look, setLook] = useState(() => kept("pass-look", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "bright")), [next, setNext] = useState(null);
   useEvery(NEXT_MS, async () => document.hidden || setNext(await read("next")));
-  const compass = useCompass(), awake = useAwake(), [name, time] = until(now, next), phone = compass.points;
+  const compass = useCompass(), awake = useAwake(), [name, told] = until(now, next), [time, ...more] = told.split(", "), phone = compass.points;
   const choose = (each) => {
     setLook(each);
     try {
@@ -158,7 +158,7 @@ export function PassMode({ now, station, hello, fresh, say }) {
     <div class="bar"><a href="#">Leave</a>
       ${now.status.simulated && html`<strong class="sim">SIM</strong>`}
       <div class="choice" role="group" aria-label="Light">${LOOKS.map(([each, label]) => html`<button type="button" aria-pressed=${look === each} onClick=${() => choose(each)}>${label}</button>`)}</div></div>
-    <div class="until"><h1>${name}</h1><b>${time}</b>
+    <div class="until"><h1>${name}</h1><b>${time}</b>${more.length > 0 && html`<small>${more.join(", ")}</small>`}
       ${hello.paired && !now.status.tracks && next?.name && hindrance(now, hello) === "" && html`<button type="button" class="go" onClick=${() => act(post("track", { target: next.name }), say)}>Track ${next.name}</button>`}</div>
     <${Compass} now=${now} beamDeg=${station.beam_deg} phone=${phone} />
     <dl class=${fresh ? "" : "old"}><div class="of-antenna"><dt>antenna</dt><dd>${way(now.antenna)}</dd></div><div class="of-target"><dt>target</dt><dd>${way(now.target)}</dd></div>
