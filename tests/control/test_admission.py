@@ -129,19 +129,6 @@ def test_while_a_fault_stops_an_axis_an_order_that_needs_it_is_refused(
         assert (answer.reason, answer.faulty) == (f"{name} is stopped by a fault: pot jumps", True)
 
 
-def test_an_azimuth_alone_needs_the_azimuth() -> None:
-    assert refused(Aim(235, None), azimuth=(Missing.LIMITS,))
-    assert not refused(Aim(235, None), elevation=(Missing.LIMITS,))
-
-
-def test_a_timed_list_of_azimuths_alone_needs_the_azimuth_too() -> None:
-    assert refused(LoadTimed(1, ((10, None), (20, None))), azimuth=(Missing.LIMITS,))
-
-
-def test_an_elevation_alone_needs_the_elevation() -> None:
-    assert refused(Aim(None, 25), elevation=(Missing.LIMITS,))
-
-
 # --- out of reach
 
 

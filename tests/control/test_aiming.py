@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.sky.known_path import KnownPath
 from rotator.exchange.flight_order import PLAN_STEP_S, AxisPlan, Fly
-from rotator.exchange.orders import BOTH, Aim, Jog, Leave, LoadTimed, Nudge, Order, Park, Stop
+from rotator.exchange.orders import BOTH, Aim, Jog, LoadTimed, Nudge, Order, Stop
 from rotator.exchange.sources import Source
 from rotator.views.sky_plot import aimed_at
 from tests.tables import every_row
@@ -20,44 +20,6 @@ PANEL = Source("panel")
 
 def targets(desk: Any) -> tuple[float | None, float | None]:
     return desk.status.azimuth.target_deg, desk.status.elevation.target_deg
-
-
-@pytest.mark.parametrize(
-    ("order", "before", "after"),
-    [
-        (Aim(200.0, 40.0), (200.0, 40.0), (203.0, 38.0)),
-        (Aim(200.0, None), (200.0, None), (203.0, None)),
-        (Aim(None, 40.0), (None, 40.0), (None, 38.0)),
-    ],
-)
-def test_a_nudge_shifts_the_target_of_the_order_in_force(
-    desk: Any, order: Order, before: tuple[float | None, ...], after: tuple[float | None, ...]
-) -> None:
-    desk.step(order)
-    assert targets(desk) == pytest.approx(before)
-    desk.step(Nudge(AZ, 3.0), Nudge(EL, -2.0), by=PANEL)
-    assert targets(desk) == pytest.approx(after)
-
-
-@pytest.mark.parametrize("over", [Stop(), Jog(AZ, Direction.PLUS, 0.1), Park(), Aim(10.0, 10.0, engaged=False)])
-def test_what_ends_an_order_is_not_undone_by_a_nudge(desk: Any, over: Order) -> None:
-    desk.step(Aim(200.0, 40.0))
-    desk.step(over)
-    desk.run(30.0)
-    stood = targets(desk)
-    desk.step(Nudge(AZ, 3.0), by=PANEL)
-    assert targets(desk) == stood
-    assert targets(desk)[0] != 203.0
-
-
-@pytest.mark.parametrize(("at_deg", "azimuth_deg", "target_deg"), [(430.0, 60.0, 420.0), (20.0, 60.0, 60.0)])
-def test_of_two_turns_the_nearer_one_is_taken(
-    new_desk: Any, at_deg: float, azimuth_deg: float, target_deg: float
-) -> None:
-    desk = new_desk(at=(at_deg, 10.0))
-    desk.step()
-    desk.step(Aim(azimuth_deg, 10.0))
-    assert targets(desk) == pytest.approx((target_deg, 10.0))
 
 
 @pytest.mark.parametrize("order", [Aim(200.0, 150.0), Aim(20.0, 150.0)])
@@ -181,17 +143,6 @@ def test_an_order_that_is_not_engaged_stops_both_axes_and_is_shown(desk: Any) ->
     assert (desk.status.wanted_azimuth_deg, desk.status.wanted_elevation_deg) == (10.0, 20.0)
 
 
-@pytest.mark.parametrize("leaves", [True, False])
-def test_the_target_of_a_stream_stands_at_the_last_order_once_its_sender_has_left(desk: Any, leaves: bool) -> None:
-    for second in range(10):
-        desk.step(Aim(110.0 + second, 20.0))
-        desk.run(0.95)
-    if leaves:
-        desk.step(Leave())
-    desk.run(1.0)
-    assert (desk.status.azimuth.target_deg == 119.0) is leaves
-
-
 # --- a planned pass
 
 
@@ -218,20 +169,6 @@ def test_a_pass_is_flown_along_its_plan_and_the_display_shows_the_satellite(desk
     assert targets(desk) == pytest.approx((290.0, 165.0) if over else (110.0, 15.0), abs=0.3)
 
 
-@pytest.mark.parametrize(("over", "axes"), [(False, (113.0, 17.0)), (True, (293.0, 163.0))])
-def test_a_nudge_turns_a_pass_to_the_right_and_up_over_the_top_too(
-    desk: Any, over: bool, axes: tuple[float, float]
-) -> None:
-    """Over the top the antenna goes up where the elevation axis goes down."""
-    flown(desk, over=over)
-    desk.run(19.0)
-    desk.step(Nudge(AZ, 3.0), Nudge(EL, 2.0), by=PANEL)
-    assert targets(desk) == pytest.approx((axes[0] - 0.5, axes[1] + (0.25 if over else -0.25)), abs=0.3)
-    desk.run(1.0)
-    assert targets(desk) == pytest.approx(axes, abs=0.3)
-    assert shown(desk) == pytest.approx((113.0, 17.0), abs=0.1)
-
-
 def test_a_pass_that_is_over_ends_and_the_antenna_stands(desk: Any) -> None:
     flown(desk, lasts_s=30.0)
     desk.run(29.0)
@@ -242,14 +179,3 @@ def test_a_pass_that_is_over_ends_and_the_antenna_stands(desk: Any) -> None:
     desk.step(Nudge(AZ, 3.0), by=PANEL)
     desk.run(10.0)
     assert targets(desk) == stood, "no order is in force that a nudge could shift"
-
-
-@pytest.mark.parametrize("order", [Aim(200.0, 40.0), Aim(10.0, 10.0, engaged=False), Park()], ids=str)
-def test_the_next_order_ends_a_pass(desk: Any, order: Order) -> None:
-    flown(desk)
-    desk.run(5.0)
-    desk.step(order)
-    assert desk.status.flown is None
-    stands = targets(desk)
-    desk.run(5.0)
-    assert targets(desk) == stands

@@ -178,12 +178,6 @@ def test_a_program_that_falls_silent_leaves_the_antenna_standing(followed: Any) 
     assert followed.run(30.0) == set()
 
 
-def test_a_connection_that_ends_leaves_the_antenna_standing(followed: Any) -> None:
-    followed.step(Leave())
-    followed.run(5.0)
-    assert followed.run(60.0) == set()
-
-
 def test_after_a_fault_no_motor_starts_without_an_order(followed: Any) -> None:
     followed.instead[AZ] = None
     followed.run(3.0)

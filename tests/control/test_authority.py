@@ -7,7 +7,7 @@ import pytest
 from rotator.control.authority import Authority
 from rotator.control.senders import PAUSE_S, SINGLE_PAUSE_S
 from rotator.exchange.sources import Source
-from tests.control.order_streams import CONSOLE, GPREDICT, GPREDICT_AGAIN, HERE, PST, stream
+from tests.control.order_streams import GPREDICT, GPREDICT_AGAIN, HERE, PST, stream
 
 
 @pytest.fixture
@@ -97,24 +97,6 @@ def test_stopping_twice_silences_as_long_as_once(authority: Authority) -> None:
 
 
 # --- STOP from the console, the panel, the page
-
-
-def test_a_latch_holds_everybody_until_a_person_releases_it(authority: Authority) -> None:
-    authority.may_move(PST, 0.0)
-    authority.stopped(CONSOLE, 0.5, latch=True)
-    assert authority.latched == "console"
-    for moment_s in (1.0, 60.0, 86_400.0):
-        assert not any(authority.may_move(source, moment_s) for source in (PST, GPREDICT, GPREDICT_AGAIN, CONSOLE))
-    authority.released()
-    assert authority.latched == ""
-    assert authority.may_move(PST, 86_401.0)
-
-
-def test_s_on_a_link_does_not_open_a_latch(authority: Authority) -> None:
-    authority.stopped(CONSOLE, 0.0, latch=True)
-    authority.stopped(PST, 1.0, latch=False)
-    assert authority.latched == "console"
-    assert not authority.may_move(PST, 2.0)
 
 
 def test_a_release_leaves_no_sender_silenced(authority: Authority) -> None:

@@ -90,12 +90,6 @@ def test_a_fight_ends_with_any_orders_of_the_programs(
     assert reversals <= 20, "118 were seen"
 
 
-def test_polling_is_no_order(authority: Authority) -> None:
-    """A link that only asks is not heard of here at all; nothing is said, and nothing changes hands."""
-    stream(authority, GPREDICT, until_s=100)
-    assert authority.ignored(100.0) == ()
-
-
 # --- what is said
 
 
@@ -146,16 +140,6 @@ def test_a_script_that_connects_for_every_order_may_stop_and_go_on(stops_on: str
     authority.stopped(stopping, 8.0, latch=False)
     authority.left(stopping, 8.0)
     assert authority.may_move(Source("rotctld", 101), 9.0, (20.0, 30.0)) is goes_on
-
-
-def test_after_a_release_no_ignored_source_is_named(authority: Authority) -> None:
-    authority.stopped(CONSOLE, 0.0, latch=True)
-    authority.may_move(PST, 1.0)
-    assert authority.ignored(1.0) == (
-        "orders from gs232b#1 are ignored: stopped by console: nothing moves until resume",
-    )
-    authority.released()
-    assert authority.ignored(1.0) == ()
 
 
 def test_ignored_sources_are_named_for_a_while_the_latest_first(authority: Authority) -> None:

@@ -8,8 +8,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.senders import PAUSE_S
-from rotator.exchange.faults import Missing
-from rotator.exchange.orders import Aim, GiveBack, Jog, Mode, Order, Park, Release, SetMode, Stop, Take
+from rotator.exchange.orders import Aim, GiveBack, Jog, Order, Park, Stop, Take
 from rotator.exchange.sources import Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -99,15 +98,6 @@ def test_to_take_it_does_not_halt_a_storm_park_half_way(desk: Any) -> None:
     assert desk.status.held_by == "page#2"
 
 
-def test_to_take_it_stops_it(desk: Any) -> None:
-    desk.step(Aim(200.0, 60.0), by=PROGRAM)
-    desk.run(1.0)
-    assert desk.driven[AZ] is PLUS
-    desk.step(Take(), by=ANNA)
-    desk.run(2.0)
-    assert desk.at_rest()
-
-
 def test_two_people_on_the_page_do_not_snatch_it_from_each_other(desk: Any) -> None:
     desk.step(Aim(200.0, 30.0), by=ANNA)
     desk.step(Aim(20.0, 30.0), by=BERT)
@@ -125,21 +115,6 @@ def test_a_person_at_the_box_is_not_held_off(desk: Any, source: Source) -> None:
     desk.step(Take(), by=ANNA)
     desk.step(Aim(200.0, 30.0), by=source)
     assert desk.status.wanted_azimuth_deg == 200.0
-
-
-def test_a_stop_of_a_program_stops_what_a_person_holds(desk: Any) -> None:
-    desk.step(Aim(200.0, 30.0), by=ANNA)
-    desk.run(1.0)
-    desk.step(Stop(), by=PROGRAM)
-    desk.run(2.0)
-    assert desk.at_rest()
-    assert desk.status.held_by == "page#1"
-
-
-def test_the_switch_of_the_panel_ends_the_hold(desk: Any) -> None:
-    desk.step(Take(), by=ANNA)
-    desk.step(SetMode(Mode.AUTO), by=Source("panel"))
-    assert desk.status.held_by == ""
 
 
 def test_a_held_button_that_is_heard_no_more_ends_in_its_lease(desk: Any) -> None:
@@ -175,22 +150,3 @@ def test_a_press_the_other_way_that_is_let_go_while_its_relay_waits_moves_nothin
         desk.step(held(AZ, PLUS), by=ANNA, seconds=0.15)
     desk.step(held(AZ, MINUS), by=ANNA)
     assert (AZ, MINUS) not in desk.run(8.0)
-
-
-def test_a_held_press_on_an_axis_without_calibration_ends_after_two_seconds(new_desk: Any) -> None:
-    desk = new_desk(missing={AZ: (Missing.DIRECTION_CHECK,)})
-    turned_s = 0.0
-    for _ in range(40):
-        desk.step(held(AZ, PLUS), by=ANNA, seconds=0.1)
-        turned_s += 0.1 if desk.driven[AZ] is PLUS else 0.0
-    assert turned_s < 3.3, "two seconds of it, then a rest, then the next"
-    assert turned_s > 1.5
-
-
-def test_nothing_moves_by_hand_after_a_stop_until_it_is_released(desk: Any) -> None:
-    desk.step(Stop(latch=True), by=BERT)
-    for order in (Take(), held(AZ, PLUS), Aim(200.0, 30.0)):
-        desk.step(order, by=ANNA)
-        assert not any(desk.driven.values())
-    desk.step(Release(), by=ANNA)
-    assert desk.step(held(AZ, PLUS), by=ANNA)[AZ] is PLUS

@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Leave, LoadTimed, Order, Park, Stop
 from rotator.exchange.sources import Source
 
@@ -34,16 +33,6 @@ def test_a_jog_for_a_time_ends_at_its_time(desk: Any) -> None:
     desk.step(Leave(), by=LINK)
     assert desk.run(2.5) == {(AZ, PLUS)}
     desk.run(1.0)
-    assert desk.at_rest()
-
-
-def test_a_press_on_an_axis_that_is_not_commissioned_ends_by_itself(new_desk: Any) -> None:
-    """`printf 'R\\r' > run/bench`, as the page on calibration has it: 2 s."""
-    desk = new_desk(missing={AZ: (Missing.DIRECTION_CHECK,)})
-    desk.step(Jog(AZ, PLUS), by=LINK)
-    desk.step(Leave(), by=LINK)
-    assert desk.run(1.8) == {(AZ, PLUS)}
-    desk.run(0.5)
     assert desk.at_rest()
 
 
@@ -103,34 +92,6 @@ def test_a_script_that_connects_for_each_order_is_followed_as_ever(desk: Any) ->
         desk.run(0.9)
     desk.run(0.5)
     assert desk.status.azimuth.target_deg > 114.5
-
-
-def test_two_programs_that_disagree_do_not_wear_the_rotor_out(desk: Any) -> None:
-    """Two minutes of two programs, each once a second, for opposite directions: 118 reversals were seen."""
-    ways: list[Direction] = []
-    said: set[str] = set()
-    for _ in range(120):
-        for source, azimuth_deg in ((LINK, 30.0), (OTHER, 330.0)):
-            desk.step(Aim(azimuth_deg, 30.0), by=source)
-            for _ in range(9):
-                desk.step()
-                if (way := desk.driven[AZ]) and (not ways or ways[-1] is not way):
-                    ways.append(way)
-            said |= set(desk.status.notices)
-    assert len(ways) <= 8
-    (fight,) = (text for text in said if "both send directions" in text)
-    assert "rotctld#1" in fight
-    assert "gs232b#1" in fight
-    assert fight in desk.status.notices, "it is said for as long as it lasts"
-
-
-def test_a_person_s_order_wins_and_the_antenna_stays(desk: Any) -> None:
-    for count in range(60):
-        desk.step(Aim(30.0, 30.0), by=LINK)
-        if count == 10:
-            desk.step(Aim(180.0, 30.0), by=OTHER)
-        desk.run(0.95)
-    assert desk.angle_deg[AZ] == pytest.approx(180.0, abs=5.0)
 
 
 orders = st.sampled_from([Aim(30.0, 30.0), Aim(330.0, 30.0), Jog(AZ, PLUS), Jog(EL, MINUS), Jog(AZ, MINUS, 2.0),

@@ -10,7 +10,6 @@ from rotator.exchange.sources import Source
 
 CONSOLE = Source("console")
 PST, GPREDICT, GPREDICT_AGAIN = Source("gs232b", 1), Source("rotctld", 1), Source("rotctld", 2)
-HERE, THERE = (180.0, 45.0), (20.0, 10.0)
 
 
 @pytest.fixture
@@ -64,18 +63,6 @@ def test_a_turn_of_the_panel_s_switch_ends_a_storm_park_and_no_sender_moves_the_
     authority.switch(PANEL, Mode.AUTO)
     assert (authority.latched, authority.storm) == ("panel, in a storm park", False)
     assert authority.controlled_by is None
-
-
-@pytest.mark.parametrize(
-    ("mode", "panel_may", "link_may"),
-    [(Mode.AUTO, True, True), (Mode.MANUAL, True, False), (Mode.JOG, True, False), (Mode.PARK, False, False)],
-)
-def test_at_manual_and_jog_the_panel_alone_moves_the_antenna(mode: Mode, panel_may: bool, link_may: bool) -> None:
-    authority = Authority()
-    authority.switch(PANEL, mode)
-    assert authority.may_move(PANEL, 0.0) is panel_may
-    for other in (PST, CONSOLE):
-        assert authority.may_move(other, 0.0) is link_may
 
 
 def test_a_stop_ends_a_storm_park_and_what_it_latched_stays(authority: Authority) -> None:

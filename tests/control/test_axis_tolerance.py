@@ -31,12 +31,6 @@ def test_four_degrees_are_four_degrees_at_every_elevation(
     assert (desk.step(Aim(100.0 + off_deg, elevation_deg))[AZ] is not Direction.OFF) is starts
 
 
-def test_on_the_sky_the_same_error_starts_no_motor_high_up(new_desk: Any) -> None:
-    desk = new_desk(at=(100.0, 60.0))
-    desk.run(1.0)
-    assert desk.step(Aim(107.0, 60.0))[AZ] is Direction.OFF
-
-
 @pytest.mark.long
 @settings(max_examples=examples(30), deadline=None)
 @given(

@@ -11,28 +11,11 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Speed, Stop
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, RunTimed, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
 RESTING = {AZ: OFF, EL: OFF}
-LONGEST_LEASE_S = 0.5
-
-
-# --- no motion before an order
-
-
-def test_nothing_moves_before_an_order(desk: Any) -> None:
-    for azimuth_deg in (0.0, 100.0, 449.0, 450.5, 3.0):
-        desk.angle_deg[AZ] = azimuth_deg
-        assert desk.run(5.0) == set()
-    assert (desk.status.azimuth.target_deg, desk.status.wanted_azimuth_deg) == (None, None)
-
-
-@pytest.mark.parametrize("order", [Stop(), Speed(1), RunTimed(), Calibrate(AZ, high_end=False)], ids=str)
-def test_orders_that_aim_at_nothing_move_nothing(desk: Any, order: Order) -> None:
-    desk.step(order)
-    assert desk.run(5.0) == set()
 
 
 # --- aim
@@ -63,13 +46,6 @@ def test_the_antenna_arrives_and_rests(desk: Any, azimuth_deg: float, elevation_
     assert abs(desk.angle_deg[AZ] - azimuth_deg) * sky <= 4.0
     assert abs(desk.angle_deg[EL] - elevation_deg) <= 4.0
     assert desk.run(60.0) == set(), "on target a motor is left alone"
-
-
-def test_no_drive_lives_longer_than_its_lease(desk: Any) -> None:
-    desk.step(Aim(300, 90))
-    while not desk.at_rest():
-        assert all(desk.now_s <= run.until_s <= desk.now_s + LONGEST_LEASE_S for run in desk.runs.values())
-        desk.step()
 
 
 def test_azimuth_alone_leaves_elevation_to_what_it_was_doing(desk: Any) -> None:
@@ -110,22 +86,6 @@ def test_an_order_every_second_starts_no_motor_again(desk: Any) -> None:
     assert starts == 1
 
 
-def test_an_aim_out_of_reach_leaves_everything_as_it_was(new_desk: Any) -> None:
-    desk = new_desk(azimuth=(0.0, 350.0))
-    desk.step(Aim(235, 25))
-    assert desk.step(Aim(355, 90)) == {AZ: PLUS, EL: PLUS}
-    assert (desk.status.wanted_azimuth_deg, desk.status.elevation.target_deg) == (235, 25)
-    assert desk.controller.troubles == ["azimuth 355 is outside the rotor's range of 0 to 350 degrees"]
-
-
-def test_not_engaged_shows_the_target_and_rests(desk: Any) -> None:
-    desk.step(Aim(235, 25))
-    assert desk.step(Aim(240, 0, engaged=False)) == RESTING
-    assert desk.run(5.0) == set()
-    assert (desk.status.wanted_azimuth_deg, desk.status.wanted_elevation_deg) == (240, 0)
-    assert desk.step(Aim(240, 20)) == {AZ: PLUS, EL: PLUS}
-
-
 @pytest.mark.parametrize("last", [Stop((AZ,)), Jog(AZ, MINUS, 0.5), Aim(100, None)], ids=["A", "L", "M"])
 def test_when_a_stream_ends_on_one_axis_the_other_stays_where_it_was_last_sent(desk: Any, last: Order) -> None:
     for second in range(25):
@@ -137,21 +97,6 @@ def test_when_a_stream_ends_on_one_axis_the_other_stays_where_it_was_last_sent(d
 
 
 # --- stop
-
-
-def test_stop_stops_at_once_and_forgets_the_target(desk: Any) -> None:
-    desk.step(Aim(235, 60))
-    assert desk.step(Stop()) == RESTING
-    assert desk.run(5.0) == set()
-    assert (desk.status.azimuth.target_deg, desk.status.wanted_azimuth_deg) == (None, None)
-
-
-@pytest.mark.parametrize(("axis", "other"), [(AZ, EL), (EL, AZ)], ids=["azimuth", "elevation"])
-def test_one_axis_may_be_stopped_alone(desk: Any, axis: Axis, other: Axis) -> None:
-    desk.step(Aim(235, 60))
-    assert desk.step(Stop((axis,))) == {axis: OFF, other: PLUS}
-    assert desk.status.axis(axis).target_deg is None
-    assert desk.status.axis(other).target_deg is not None
 
 
 def test_orders_of_one_step_are_taken_in_turn(desk: Any) -> None:
@@ -171,29 +116,6 @@ def test_a_jog_runs_to_the_soft_limit_and_no_further(desk: Any, axis: Axis, way:
     assert desk.step(Jog(axis, way)) == RESTING
 
 
-def test_a_jog_lasts_until_it_is_stopped(desk: Any) -> None:
-    desk.step(Jog(AZ, PLUS))
-    desk.run(10.0)
-    assert desk.driven[AZ] is PLUS
-    assert desk.step(Jog(AZ, OFF)) == RESTING
-
-
-def test_a_jog_may_be_for_a_time(desk: Any) -> None:
-    desk.step(Jog(EL, PLUS, 1.0))
-    ends_s = desk.now_s + 1.0
-    desk.run(0.9)
-    assert desk.driven[EL] is PLUS
-    assert desk.runs[EL].until_s <= ends_s, "its last command ends with it"
-    desk.run(0.2)
-    assert desk.run(5.0) == set()
-
-
-def test_a_jog_leaves_the_other_axis_to_its_target(desk: Any) -> None:
-    desk.step(Aim(235, 60))
-    assert desk.step(Jog(AZ, MINUS, 0.5))[EL] is PLUS
-    assert (desk.status.wanted_azimuth_deg, desk.status.wanted_elevation_deg) == (None, 60)
-
-
 @pytest.mark.parametrize("before", [Jog(AZ, MINUS), Aim(30, 10)], ids=["jog", "aim"])
 def test_a_jog_the_other_way_turns_round(desk: Any, before: Order) -> None:
     desk.step(before)
@@ -204,19 +126,7 @@ def test_a_jog_the_other_way_turns_round(desk: Any, before: Order) -> None:
     assert desk.driven[AZ] is PLUS
 
 
-def test_a_jog_back_from_beyond_the_limit_is_obeyed(desk: Any) -> None:
-    desk.place(AZ, 452.0)
-    assert desk.step(Jog(AZ, PLUS)) == RESTING
-    assert desk.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
-
-
 # --- park, timed lists, the rest
-
-
-def test_park_goes_to_the_park_position(new_desk: Any) -> None:
-    desk = new_desk(park=(180.0, 90.0))
-    assert desk.step(Park()) == {AZ: PLUS, EL: PLUS}
-    assert (desk.status.azimuth.target_deg, desk.status.elevation.target_deg) == (180.0, 90.0)
 
 
 def test_a_timed_list_is_followed_and_a_stop_ends_it(desk: Any) -> None:
@@ -228,19 +138,3 @@ def test_a_timed_list_is_followed_and_a_stop_ends_it(desk: Any) -> None:
     desk.step(Stop())
     assert desk.run(10.0) == set()
     assert (desk.status.timed_point, desk.status.timed_points) == (2, 3)
-
-
-def test_the_speed_is_remembered(desk: Any) -> None:
-    desk.step(Speed(2))
-    assert desk.status.speed_level == 2
-
-
-def test_the_same_inputs_give_the_same_outputs(new_desk: Any) -> None:
-    def script() -> list[object]:
-        desk = new_desk()
-        seen: list[object] = []
-        for order in (Aim(235, 60), Jog(EL, MINUS), Stop(), Park()):
-            seen += [dict(desk.step(order)), desk.run(3.0), desk.status]
-        return seen
-
-    assert script() == script()

@@ -17,7 +17,6 @@ from rotator.exchange.orders import (
     Jog,
     LetGo,
     Mode,
-    Nudge,
     Order,
     Park,
     RelaysChecked,
@@ -25,7 +24,6 @@ from rotator.exchange.orders import (
     Remark,
     SetMode,
     Stop,
-    Take,
 )
 from rotator.exchange.sources import Source
 
@@ -151,13 +149,6 @@ def test_a_confirmed_angle_is_passed_on_by_an_axis_that_counts_and_refused_by_on
         assert (desk.status.azimuth.target_deg is None) is counted, "refused, its target stays"
 
 
-def test_an_axis_that_measures_is_not_homed(desk: Any) -> None:
-    desk.step(Home(AZ), by=CONSOLE)
-    (trouble,) = desk.controller.troubles
-    assert trouble.startswith("azimuth knows its angle")
-    assert not desk.status.azimuth.homing
-
-
 # --- words for persons
 
 
@@ -193,27 +184,3 @@ def test_a_person_who_has_looked_at_the_relays_ends_the_doubt_of_that_axis(new_d
     assert desk.status.azimuth.trusts[0] is Trust.DOUBTED
     desk.step(RelaysChecked(AZ), by=CONSOLE)
     assert desk.status.azimuth.trusts == (Trust.OPEN, Trust.OPEN)
-
-
-# --- what a person at the page or at the panel does to an order in force
-
-
-@pytest.mark.parametrize(
-    ("mover", "stops", "goes_on"), [("page#1", False, True), ("page#1", True, False), ("gs232b#1", False, False)]
-)
-def test_taking_the_antenna_stops_another_sender_s_motion_and_may_keep_one_s_own(
-    desk: Any, mover: str, stops: bool, goes_on: bool
-) -> None:
-    desk.step(Aim(300.0, 10.0), by=BROWSER if mover == str(BROWSER) else desk.LINK)
-    assert desk.status.controlled_by == mover
-    driven = desk.step(Take(stops), by=BROWSER)
-    assert (driven[AZ] is PLUS) is goes_on
-    assert desk.status.held_by == "page#1"
-    assert desk.status.controlled_by == (mover if goes_on else "")
-
-
-def test_a_nudge_shifts_the_order_in_force_at_once(desk: Any) -> None:
-    desk.step(Aim(200.0, 40.0))
-    desk.step(Nudge(AZ, 3.0), by=PANEL)
-    assert desk.status.azimuth.target_deg == pytest.approx(203.0)
-    assert desk.status.elevation.target_deg == pytest.approx(40.0)

@@ -8,13 +8,12 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Park, Release, RunTimed, Stop
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Release, RunTimed, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
 RESTING = {AZ: OFF, EL: OFF}
 BROKEN = [0.0, 0.01, 0.99, 1.0, math.nan, None]
-MOVES: list[Order] = [Aim(235, 60), Jog(AZ, PLUS), Jog(AZ, PLUS, 1.0), Park(), LoadTimed(1.0, ((235, 60),))]
 
 
 # --- a sensor out of range
@@ -37,15 +36,6 @@ def test_a_bad_reading_starts_nothing(desk: Any, raw: float | None) -> None:
     assert desk.step() == {AZ: PLUS, EL: PLUS}
 
 
-def test_a_spark_costs_a_moment_and_no_more(desk: Any) -> None:
-    desk.step(Aim(235, 60))
-    desk.instead[AZ] = 1.0
-    desk.step()
-    desk.instead.clear()
-    assert desk.step()[AZ] is PLUS
-    assert desk.status.faults == ()
-
-
 def test_a_wire_that_flickers_does_not_make_the_relay_chatter(desk: Any) -> None:
     desk.step(Aim(400, 10))
     starts = 0
@@ -58,22 +48,6 @@ def test_a_wire_that_flickers_does_not_make_the_relay_chatter(desk: Any) -> None
     assert [fault.axis for fault in desk.status.faults] == [AZ]
 
 
-@pytest.mark.parametrize("axis", list(Axis), ids=lambda axis: axis.value)
-@pytest.mark.parametrize("raw", BROKEN)
-def test_a_bad_reading_that_lasts_is_a_fault_of_that_axis(desk: Any, axis: Axis, raw: float | None) -> None:
-    desk.step(Aim(235, 60))
-    desk.instead[axis] = raw
-    desk.run(0.5)
-    (fault,) = desk.status.faults
-    assert fault.axis is axis
-    assert fault.name == ("sensor silent" if raw is None else "pot open or shorted")
-    assert fault.measured
-    assert fault.limit
-    assert fault.page == "docs/troubleshooting.md"
-    assert desk.driven[axis] is OFF
-    assert desk.driven[EL if axis is AZ else AZ] is PLUS
-
-
 def test_readings_that_stop_coming_are_a_fault(desk: Any) -> None:
     desk.step(Aim(235, 60))
     desk.frozen_since_s[AZ] = desk.now_s
@@ -82,82 +56,7 @@ def test_readings_that_stop_coming_are_a_fault(desk: Any) -> None:
     assert desk.driven == {AZ: OFF, EL: PLUS}
 
 
-def broken(desk: Any, axis: Axis = AZ) -> None:
-    """A wire came off during a pass and was put back; the fault stands."""
-    desk.step(Aim(235, 60))
-    desk.instead[axis] = 0.0
-    desk.run(0.5)
-    desk.instead.clear()
-    desk.run(5.0)
-    assert len(desk.status.faults) == 1
-
-
-@pytest.mark.parametrize("order", [*MOVES, Stop((AZ,))], ids=str)
-def test_after_a_fault_no_order_moves_that_axis(desk: Any, order: Order) -> None:
-    broken(desk)
-    desk.step(order)
-    assert (AZ, PLUS) not in desk.run(5.0)
-    assert (AZ, MINUS) not in desk.run(5.0)
-    assert len(desk.status.faults) == 1
-
-
-@pytest.mark.parametrize("order", [Stop(), Release()], ids=["S", "release"])
-def test_s_or_a_release_acknowledges_and_the_next_order_moves(desk: Any, order: Order) -> None:
-    broken(desk)
-    desk.step(order)
-    assert desk.status.faults == ()
-    assert (AZ, PLUS) not in desk.run(5.0), "acknowledging is no order to move"
-    assert desk.step(Aim(235, 60))[AZ] is PLUS
-
-
-@pytest.mark.parametrize("resumes", [False, True], ids=["S", "resume"])
-def test_after_three_tries_in_vain_only_a_person_has_the_motor_tried_again(desk: Any, resumes: bool) -> None:
-    """Its pot goes out each time while the motor runs."""
-    for tries in range(1, 4):
-        desk.step(Aim(400, 10))
-        desk.run(2.0)
-        desk.instead[AZ] = None
-        desk.run(0.5)
-        assert ("only `resume`" in desk.status.azimuth.fault.measured) is (tries == 3)
-        del desk.instead[AZ]
-        desk.run(2.0)
-        if tries < 3:
-            desk.step(Stop())
-            assert desk.status.faults == ()
-    desk.step(Release() if resumes else Stop(), by=desk.CONSOLE if resumes else desk.LINK)
-    assert (desk.status.faults == ()) is resumes
-
-
-@pytest.mark.parametrize("order", [Stop(), Release()], ids=["S", "release"])
-def test_while_the_cause_persists_the_fault_comes_back_and_nothing_moves(desk: Any, order: Order) -> None:
-    desk.step(Aim(235, 60))
-    desk.instead[AZ] = 0.0
-    desk.run(0.5)
-    for _ in range(5):
-        assert desk.step(order, Aim(235, 60))[AZ] is OFF
-        assert (AZ, PLUS) not in desk.run(0.2)
-        assert len(desk.status.faults) == 1
-
-
-def test_both_axes_may_fail_and_each_says_so(desk: Any) -> None:
-    desk.instead = {AZ: 0.0, EL: None}
-    desk.run(0.5)
-    assert {fault.axis for fault in desk.status.faults} == {AZ, EL}
-
-
-def test_with_a_broken_sensor_not_even_a_jog_moves(desk: Any) -> None:
-    desk.instead[AZ] = 0.0
-    assert desk.step(Jog(AZ, PLUS)) == RESTING
-    assert desk.run(2.0) == set()
-
-
 # --- soft limits
-
-
-def test_beyond_its_limit_an_axis_is_driven_only_inward(desk: Any) -> None:
-    desk.place(AZ, 455.0)
-    assert desk.step(Aim(450, 10))[AZ] in (OFF, MINUS)
-    assert desk.step(Aim(100, 10))[AZ] is MINUS
 
 
 def test_coasting_back_from_beyond_the_limit_a_jog_outward_waits(desk: Any) -> None:
@@ -169,51 +68,7 @@ def test_coasting_back_from_beyond_the_limit_a_jog_outward_waits(desk: Any) -> N
     assert desk.step(Jog(AZ, PLUS)) == RESTING
 
 
-# --- STOP from the console, the panel, the page
-
-
-@pytest.mark.parametrize("order", MOVES, ids=str)
-def test_while_latched_orders_have_no_effect(desk: Any, order: Order) -> None:
-    desk.step(Aim(235, 60))
-    assert desk.step(Stop(latch=True), by=desk.CONSOLE) == RESTING
-    assert desk.status.latched == "console"
-    desk.step(order)
-    assert desk.run(20.0) == set()
-    desk.step(Stop())
-    desk.step(order)
-    assert desk.run(5.0) == set(), "S on a link does not release what a person latched"
-
-
-def test_a_released_box_waits_for_an_order(desk: Any) -> None:
-    desk.step(Aim(235, 60))
-    desk.step(Stop(latch=True), by=desk.CONSOLE)
-    desk.step(Release(), by=desk.CONSOLE)
-    assert desk.status.latched == ""
-    assert desk.run(5.0) == set()
-    assert desk.step(Aim(235, 60)) == {AZ: PLUS, EL: PLUS}
-
-
 # --- S on one link, a stream on another
-
-
-def test_a_stream_elsewhere_stays_without_effect_until_it_pauses(desk: Any) -> None:
-    for _ in range(5):
-        desk.step(Aim(235, 60), by=desk.OTHER, seconds=1.0)
-    desk.step(Stop(), by=desk.LINK)
-    for _ in range(30):
-        assert desk.step(Aim(235, 60), by=desk.OTHER, seconds=1.0) == RESTING
-    desk.step(seconds=10.0)
-    assert desk.step(Aim(235, 60), by=desk.OTHER) == {AZ: PLUS, EL: PLUS}
-
-
-def test_the_link_that_said_s_moves_the_antenna_again(desk: Any) -> None:
-    desk.step(Aim(235, 60), by=desk.OTHER)
-    desk.step(Stop(), by=desk.LINK)
-    desk.step(Aim(30, 60), by=desk.LINK)
-    desk.run(1.5)  # the first relay has to be seen open, of a motor whose speed is not known yet
-    assert desk.driven == {AZ: MINUS, EL: PLUS}
-    assert desk.status.controlled_by == "gs232b#1"
-    assert desk.step(Aim(235, 60), by=desk.OTHER) == {AZ: MINUS, EL: PLUS}
 
 
 @pytest.mark.parametrize("by", [Release(), Stop()], ids=["resume", "S"])

@@ -143,9 +143,3 @@ def test_homing_that_would_pass_it_is_refused_as_a_fault(new_desk: Any) -> None:
     assert desk.angle_deg[AZ] > 130
     assert desk.status.azimuth.fault.kind is FaultKind.NOT_HOMED
     assert "the chimney" in desk.status.azimuth.fault.measured
-
-
-def test_without_sectors_nothing_is_asked_of_an_axis(desk: Any) -> None:
-    desk.step(Aim(200.0, 45.0))
-    assert desk.run(1.0) == {(AZ, PLUS), (EL, PLUS)}
-    assert notices(desk) == []

@@ -10,13 +10,12 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.reach import bounds
 from rotator.control.sky.mount import Range, Sector
 from rotator.exchange.motor import Motor
-from rotator.exchange.orders import Aim, Park, Release, Stop
+from rotator.exchange.orders import Aim, Release, Stop
 from tests.search import some
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
 CHIMNEY = Sector("the chimney", Range(100, 130), Range(0, 35), 2.0)
-TOWER = Sector("the tower", Range(100, 110), Range(0, 180), 2.0)
 WAITS = "a sector is in the way, and the other axis was stopped: waits"
 
 
@@ -103,16 +102,6 @@ def test_without_a_way_it_stays_on_this_side_and_says_so(new_desk: Any) -> None:
     desk.run(60.0)
     assert 112 < desk.angle_deg[AZ] < 123, "its coast was not seen before"
     assert any("behind the tower" in text for text in notices(desk))
-
-
-def test_park_goes_round_too(beside: Any) -> None:
-    beside.step(Aim(200.0, 10.0))
-    beside.run(60.0)
-    beside.step(Park())
-    for _ in range(1600):
-        beside.step()
-        assert not (100 < beside.angle_deg[AZ] < 130 and beside.angle_deg[EL] < 35)
-    assert beside.angle_deg[AZ] == pytest.approx(0, abs=4)
 
 
 def test_an_order_first_leads_it_out_and_says_so(beside: Any) -> None:
@@ -207,10 +196,3 @@ def test_of_two_turns_the_nearest_free_one_is_taken(new_desk: Any, at_deg: float
     desk.step()
     desk.step(Aim(30.0, 50.0))
     assert desk.status.azimuth.target_deg == target_deg
-
-
-def test_an_azimuth_above_360_names_its_turn(new_desk: Any) -> None:
-    desk = new_desk(at=(50.0, 50.0), sectors=(CHIMNEY,))
-    desk.step()
-    desk.step(Aim(390.0, 50.0))
-    assert desk.status.azimuth.target_deg == 390.0

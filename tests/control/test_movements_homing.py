@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.commands import Place
-from rotator.exchange.orders import Aim, Confirm, Home, Park, Release, Stop
+from rotator.exchange.orders import Aim, Home, Park, Release, Stop
 from tests.control.conftest import AZ, EL, Desk
 
 CONSOLE, LINK = Desk.CONSOLE, Desk.LINK
@@ -87,13 +85,6 @@ def test_another_order_of_the_same_person_ends_the_homing_and_all_that_wait(coun
     assert counted.driven[AZ] is Direction.PLUS
 
 
-def test_orders_of_others_have_no_effect_while_it_homes(counted: Desk) -> None:
-    counted.step(Home(AZ), by=CONSOLE)
-    counted.step(Aim(200.0, 60.0), by=LINK)
-    assert counted.status.azimuth.homing
-    assert counted.status.elevation.target_deg is None
-
-
 def test_a_stop_ends_homing_and_all_that_wait(counted: Desk) -> None:
     counted.step(Home(AZ), by=CONSOLE)
     counted.step(Home(EL), by=CONSOLE)
@@ -110,27 +101,3 @@ def test_a_rotor_that_measures_is_not_homed_and_goes_on(desk: Desk) -> None:
     desk.step(Home(AZ), by=CONSOLE)
     assert any("needs no homing" in trouble for trouble in desk.controller.troubles)
     assert desk.status.azimuth.target_deg == 200.0
-
-
-def test_a_rotor_that_measures_keeps_its_target_when_an_angle_is_confirmed(desk: Desk) -> None:
-    desk.step(Aim(200.0, 60.0))
-    desk.step(Confirm(AZ, 42.0), by=CONSOLE)
-    assert any("nothing to confirm" in trouble for trouble in desk.controller.troubles)
-    assert desk.controller.errands == []
-    assert desk.status.azimuth.target_deg == 200.0
-    assert desk.driven[AZ] is Direction.PLUS
-
-
-def test_a_counted_axis_takes_a_confirmed_angle_and_stops(counted: Desk) -> None:
-    counted.step(Aim(200.0, 60.0))
-    counted.step(Confirm(AZ, 42.0), by=CONSOLE)
-    assert counted.controller.errands == [Place(AZ, 42.0)]
-    assert counted.status.azimuth.target_deg is None
-
-
-@pytest.mark.parametrize("order", [Park(storm=True), Stop(latch=True)], ids=["storm park", "latched stop"])
-def test_homing_does_not_begin_while_a_person_holds_the_antenna(counted: Any, order: Any) -> None:
-    counted.step(order, by=CONSOLE)
-    counted.step(Home(AZ), by=LINK)
-    counted.run(1.0)
-    assert not counted.status.azimuth.homing

@@ -21,10 +21,6 @@ def run(starts: PassStarts, from_s: float, *azimuth: Direction) -> None:
         starts.note_driven(from_s + second, {Axis.AZIMUTH: direction, Axis.ELEVATION: OFF})
 
 
-def test_before_the_first_order_there_was_no_start(starts: PassStarts) -> None:
-    assert [starts.of(axis) for axis in Axis] == [0, 0]
-
-
 def test_a_start_is_a_relay_that_closes_and_a_reversal_is_one_too(starts: PassStarts) -> None:
     starts.ordered(0.0)
     run(starts, 0.0, CW, CW, OFF, CW, CCW, OFF)

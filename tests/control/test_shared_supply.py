@@ -15,7 +15,7 @@ from rotator.control.commands import Feed, Run
 from rotator.control.controller import Controller
 from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import ALL_OPEN, Trust, Trusts
-from rotator.exchange.orders import Aim, Jog, Order, Park, RelaysChecked, Release, Stop
+from rotator.exchange.orders import Aim, Jog, Order, Park, RelaysChecked, Release
 from rotator.exchange.sources import Source
 from tests.tables import every_row
 
@@ -106,9 +106,3 @@ def test_without_a_master_the_supply_is_on_anyway(found: Axis) -> None:
     desk = Desk(found, FOUND[0], master=False)
     desk.run(5.0, ORDERS["jog"](other(found)))
     assert desk.fed[other(found)]
-
-
-def test_a_stop_is_no_order_that_feeds() -> None:
-    desk = Desk(AZ, FOUND[0])
-    desk.run(2.0, Stop())
-    assert desk.fault(EL) is None

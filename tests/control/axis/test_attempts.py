@@ -132,28 +132,6 @@ def test_a_link_keeps_the_stop_and_a_person_s_release_forgets_it() -> None:
     assert (tried.attempts.notices, tried.attempts.limits) == ((), LIMITS)
 
 
-def test_three_runs_in_vain_are_a_person_s_to_release() -> None:
-    tried = Tried(at_deg=200.0)
-    for counts in (True, True, False):
-        tried.run_into(STANDS)
-        assert tried.acknowledged() is counts
-    assert tried.acknowledged(by_person=True)
-    tried.run_into(STANDS)
-    assert tried.acknowledged(), "the count begins anew"
-
-
-@pytest.mark.parametrize(("fault", "tries"), [(STANDS, 1), (END, 1), (WRONG, 1), (JUMPS, 0)])
-def test_just_after_a_run_a_fault_of_the_motor_is_a_try_and_one_of_the_sensor_is_none(fault: Fault, tries: int) -> None:
-    tried = Tried(at_deg=200.0)
-    for _ in range(3):
-        tried.drive(PLUS)
-        tried.look(0.2)
-        tried.drive(OFF)
-        tried.attempts.fail(fault)
-        tried.acknowledged()
-    assert (tried.attempts.fault is None) is (tries == 0)
-
-
 def test_short_presses_in_vain_are_a_fault_and_each_of_them_is_a_try() -> None:
     tried = Tried(at_deg=200.0)
     pressed = 0
@@ -232,21 +210,3 @@ def test_a_run_is_in_vain_until_it_is_seen_to_move_the_axis_or_a_fault_counts_it
     assert in_vain()
     tried.attempts.note(STANDS, tried.now_s, cause=None)
     assert not in_vain()
-
-
-@pytest.mark.parametrize(
-    ("kind", "shown"),
-    [
-        (FaultKind.WRONG_WAY, FaultKind.WRONG_WAY),
-        (FaultKind.END_STOP, FaultKind.END_STOP),
-        (None, FaultKind.STANDS_STILL),
-    ],
-)
-def test_three_tries_of_an_earlier_run_stop_it_from_the_start_by_the_fault_of_the_last_one(
-    kind: FaultKind | None, shown: FaultKind
-) -> None:
-    fault = Attempts(Axis.AZIMUTH, LIMITS, gate(), before=Tries(3, kind)).fault
-    assert fault is not None
-    assert (fault.kind, fault.axis) == (shown, Axis.AZIMUTH)
-    assert "before the program began again" in fault.measured
-    assert Attempts(Axis.AZIMUTH, LIMITS, gate(), before=Tries(2, kind)).fault is None

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from hw.ports import AngleSource, Axis, Direction
+from hw.ports import AngleSource, Axis
 from rotator.control.axis.build import build_axis
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.port import ControlledAxis
@@ -36,34 +36,9 @@ def test_each_kind_says_what_it_has(settings: AxisSettings, has_relays: bool, ho
     assert (axis.homing, axis.waits, axis.busy) == (False, False, False)
 
 
-@pytest.mark.parametrize("settings", [MEASURED, POSITIONED], ids=["measured", "positioned"])
-def test_an_axis_that_knows_its_angle_is_not_homed(settings: AxisSettings) -> None:
-    axis = built(settings)
-    with pytest.raises(Refused, match="azimuth knows its angle"):
-        axis.home()
-    assert not axis.busy
-
-
-def test_an_axis_without_a_reading_keeps_its_calibration() -> None:
-    with pytest.raises(Refused, match="azimuth keeps its calibration: the sensor has no believable reading"):
-        built(MEASURED).calibrate_end(high_end=True)
-
-
 def test_a_positioned_axis_has_no_ends_and_no_relays() -> None:
     axis = built(POSITIONED)
     with pytest.raises(Refused, match="it needs no ends"):
         axis.calibrate_end(high_end=True)
     with pytest.raises(Refused, match="azimuth has no relays"):
         axis.checked()
-
-
-def test_a_motor_that_ran_for_its_longest_time_cools_for_half_of_its_rest() -> None:
-    axis = built(replace(MEASURED, longest_run_s=10.0, rest_s=60.0))
-    axis.note_driven(0.0, Direction.PLUS)
-    axis.note_driven(9.0, Direction.PLUS)
-    assert not axis.waits
-    axis.note_driven(10.0, Direction.OFF)
-    axis.note_driven(39.0, Direction.OFF)
-    assert axis.waits
-    axis.note_driven(40.0, Direction.OFF)
-    assert not axis.waits

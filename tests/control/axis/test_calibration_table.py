@@ -67,14 +67,6 @@ def test_a_table_that_is_no_curve_is_refused(points: tuple[tuple[float, float], 
 # --- two ends
 
 
-def test_two_ends_make_a_straight_line() -> None:
-    assert between_ends(0.05, 0.0, 0.95, 450.0).degrees(0.5) == pytest.approx(225.0)
-
-
-def test_a_pot_wired_the_other_way_round_is_as_good() -> None:
-    assert between_ends(0.95, 0.0, 0.05, 450.0).degrees(0.95) == pytest.approx(0.0)
-
-
 def test_one_place_measured_twice_is_no_two_ends() -> None:
     with pytest.raises(ValueError, match=r"the ends read 0\.500 and 0\.540: too close"):
         between_ends(0.5, 0.0, 0.54, 450.0)

@@ -128,16 +128,6 @@ def test_a_run_in_which_the_contact_never_changed_shows_nothing() -> None:
     assert shaft.watch.accuse(MINUS) is None, "a run of its own has shown it"
 
 
-def test_a_person_may_look_instead() -> None:
-    shaft = Shaft()
-    shaft.ahead = frozenset()
-    shaft.run(PLUS)
-    shaft.pass_by(60.0)
-    assert shaft.watch.trusts == (Trust.DOUBTED, Trust.OPEN)
-    shaft.watch.checked()
-    assert not shaft.watch.forbids(MINUS)
-
-
 @pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
 def test_before_its_first_relay_the_contact_is_seen_to_be_silent(way: Direction) -> None:
     shaft = Shaft(look=True)

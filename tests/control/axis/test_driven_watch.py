@@ -112,8 +112,3 @@ def test_a_slow_axis_that_stands_for_certain_is_a_fault_before_its_noise_is_aver
     while rotor.fault is None and rotor.now_s < began_s + 10.0:
         rotor.look(0.05)
     assert rotor.now_s - began_s < 2.2
-
-
-def test_a_wind_that_turns_a_resting_axis_is_no_affair_of_this_watch() -> None:
-    rotor = known()
-    assert rotor.push(-0.3, 4.0) is None

@@ -57,12 +57,6 @@ def test_without_a_rest_it_is_cool_as_soon_as_it_stands() -> None:
     assert not after(Endurance(300.0, 0.0), (299.0, True), (0.1, False), (299.0, True))
 
 
-def test_a_second_s_rest_is_a_rest() -> None:
-    endurance = Endurance(300.0, 1.0)
-    assert after(endurance, (300.0, True), (0.4, False))
-    assert not after(Endurance(300.0, 1.0), (300.0, True), (0.5, False))
-
-
 def test_before_the_first_moment_it_stood() -> None:
     endurance = Endurance(10.0, 20.0)
     endurance.note(100.0, running=False)

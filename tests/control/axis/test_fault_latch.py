@@ -17,13 +17,6 @@ ALSO_WELDED = Fault(FaultKind.TURNS_BY_ITSELF, Axis.AZIMUTH, "it turns", cut=Tru
 SILENT = Fault(FaultKind.CONTROLLER_SILENT, Axis.AZIMUTH, "no answer", passing=True)
 
 
-def test_nothing_wrong_is_no_fault() -> None:
-    latch = FaultLatch()
-    assert not latch.note(None, 0.0, cause=None, tries=0)
-    assert not latch.fail(None, 0.0, tries=0)
-    assert latch.fault is None
-
-
 def test_the_first_fault_stays_when_its_cause_is_gone() -> None:
     latch = FaultLatch()
     assert latch.note(STANDS, 0.0, cause=None, tries=0), "new"

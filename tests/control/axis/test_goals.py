@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from hw.ports import Axis, Direction
+from hw.ports import Direction
 from rotator.control.axis.goals import LONGEST_WAIT_S, JogGoal, jog
-from rotator.control.axis.relay_faults import limit_reached
-from rotator.exchange.faults import FaultKind
 
 MINUS, OFF, PLUS = Direction
 
@@ -53,18 +51,3 @@ def test_a_jog_without_a_time_has_none_to_put_off() -> None:
 
 def test_what_is_put_off_keeps_its_way_and_its_end() -> None:
     assert JogGoal(MINUS, 105.0, end_deg=90.0).put_off(1.0) == JogGoal(MINUS, 106.0, waits_s=5.0, end_deg=90.0)
-
-
-@pytest.mark.parametrize(
-    ("axis", "way", "word"),
-    [
-        (Axis.AZIMUTH, PLUS, "clockwise"),
-        (Axis.AZIMUTH, MINUS, "counter-clockwise"),
-        (Axis.ELEVATION, PLUS, "up"),
-        (Axis.ELEVATION, MINUS, "down"),
-    ],
-)
-def test_an_open_limit_switch_names_the_axis_and_the_way(axis: Axis, way: Direction, word: str) -> None:
-    fault = limit_reached(axis, way)
-    assert (fault.kind, fault.axis) == (FaultKind.LIMIT_SWITCH, axis)
-    assert fault.measured.endswith(f" {word}")

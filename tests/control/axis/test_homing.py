@@ -111,14 +111,6 @@ def test_a_coast_may_end_anywhere_and_it_is_homed(  # noqa: PLR0917 - hypothesis
     assert (rig.off_by, rig.counter.trouble) == (0, "")
 
 
-def test_a_count_that_was_lost_is_found_again() -> None:
-    rig, homing = PulseRig(180.0), ordered()
-    rig.counter.place(33.0)
-    fly(rig, homing)
-    assert rig.counter.place(0.0)
-    assert (rig.off_by, rig.counter.trouble) == (0, "")
-
-
 @pytest.mark.parametrize(
     "fault", ["azimuth-contact-stuck-open", "azimuth-contact-stuck-closed", "azimuth-motor-stalled"]
 )

@@ -55,11 +55,6 @@ def motor(speed_dps: float = 6.0, lag_s: float = 0.2) -> Motor:
     return Motor(speed_dps, speed_dps * lag_s)
 
 
-def test_a_motor_s_lag_is_its_coast_over_its_speed() -> None:
-    assert Motor(6.0, 1.5).lag_s == 0.25
-    assert Motor(6.0, 0.0).lag_s == 0.001, "never zero: it is divided by"
-
-
 def test_before_the_first_reading_there_is_no_angle() -> None:
     model = Motion({PLUS: motor(), MINUS: motor()})
     assert model.angle_deg is None
@@ -106,14 +101,6 @@ def test_it_rests_once_it_has_landed(way: Direction) -> None:
     axis.turn(3 * STEP_S)
     assert axis.model.resting
     assert axis.model.angle_deg == pytest.approx(axis.angle_deg, abs=0.01)
-
-
-@BOTH_WAYS
-def test_a_right_model_learns_nothing_new(way: Direction) -> None:
-    axis = Axis(6.0, 0.2, motor())
-    axis.run(way, 3.0)
-    assert axis.model.motors[way].speed_dps == pytest.approx(6.0, rel=0.01)
-    assert axis.model.motors[way].coast_deg == pytest.approx(1.2, abs=0.05)
 
 
 @BOTH_WAYS

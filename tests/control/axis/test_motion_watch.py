@@ -8,7 +8,6 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion_watch import MotionWatch
-from rotator.control.axis.relay_faults import CUT_BY_HAND
 from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault
 from rotator.exchange.motor import ALL_OPEN, Motor
@@ -149,24 +148,6 @@ def test_a_motor_that_does_not_start(speed_dps: float, noise_deg: float, way: Di
     assert after_s <= (2.0 if noise_deg < 0.4 else 2.4)
 
 
-@pytest.mark.parametrize(("speed_dps", "noise_deg"), [(0.5, 0.1), (2.7, 0.4), (6.0, 0.4), (60.0, 0.4)])
-def test_a_motor_that_gets_stuck(speed_dps: float, noise_deg: float) -> None:
-    bench = Bench(speed_dps, noise_deg, at_deg=20.0)
-    bench.run(PLUS, 4.0)
-    name, after_s = bench.time_to_fault(4.0)
-    assert name == "motor runs and pot stands still"
-    assert after_s <= 2.0
-
-
-@pytest.mark.parametrize(("at_deg", "way"), [(447.0, PLUS), (450.5, PLUS), (2.0, MINUS), (-1.0, MINUS)])
-def test_standing_at_its_end_it_is_an_end_stop(at_deg: float, way: Direction) -> None:
-    bench = Bench(at_deg=at_deg)
-    bench.drive(way)
-    name, after_s = bench.time_to_fault(4.0)
-    assert name == "end stop reached"
-    assert after_s <= 2.0
-
-
 @pytest.mark.parametrize(("at_deg", "way"), [(447.0, MINUS), (2.0, PLUS)])
 def test_standing_at_its_end_and_driven_inward_it_is_stuck(at_deg: float, way: Direction) -> None:
     bench = Bench(at_deg=at_deg)
@@ -175,17 +156,6 @@ def test_standing_at_its_end_and_driven_inward_it_is_stuck(at_deg: float, way: D
 
 
 # --- driven, and it goes elsewhere
-
-
-@NOISES_DEG
-@pytest.mark.parametrize("speed_dps", [2.7, 6.0, 60.0])
-@BOTH_WAYS
-def test_the_wrong_way(speed_dps: float, noise_deg: float, way: Direction) -> None:
-    bench = Bench(speed_dps, noise_deg)
-    bench.drive(way)
-    name, after_s = bench.time_to_fault(4.0, -way * speed_dps)
-    assert name == "pot moves the wrong way"
-    assert after_s <= 1.0
 
 
 def test_a_motor_that_drags_is_on_for_longer_than_the_travel_takes() -> None:
@@ -202,44 +172,6 @@ def test_a_motor_that_drags_is_on_for_longer_than_the_travel_takes() -> None:
 # --- not driven, and it turns
 
 
-@NOISES_DEG
-@pytest.mark.parametrize("share", [0.5, 1.0, -1.0])
-@pytest.mark.parametrize("speed_dps", [2.7, 6.0])
-def test_at_half_its_speed_for_a_second(speed_dps: float, share: float, noise_deg: float) -> None:
-    bench = Bench(speed_dps, noise_deg)
-    # A little more than half: at exactly that the noise decides.
-    name, after_s = bench.time_to_fault(5.0, 1.2 * share * speed_dps)
-    assert name == "turning with no relay on"
-    assert 0.8 <= after_s <= 2.0
-
-
-@pytest.mark.parametrize("share", [0.3, -0.3])
-def test_slower_than_that_it_is_a_notice_that_goes_again(share: float) -> None:
-    bench = Bench()
-    assert bench.pass_by(10.0, share * 6.0) is None
-    assert [str(notice) for notice in bench.watch.notices] == [
-        "turning with no relay on: wind, or a hand at the control box's switch"
-    ]
-    assert bench.pass_by(5.0) is None
-    assert bench.watch.notices == ()
-
-
-def test_a_push_of_half_a_second_is_no_fault() -> None:
-    bench = Bench()
-    assert bench.pass_by(0.5, 6.0) is None
-    assert bench.pass_by(5.0) is None
-
-
-@BOTH_WAYS
-def test_going_on_after_its_relay_opened_is_a_welded_relay(way: Direction) -> None:
-    bench = Bench()
-    bench.run(way, 4.0)
-    bench.drive(OFF)
-    name, after_s = bench.time_to_fault(5.0, way * 6.0)
-    assert name == "relay welded"
-    assert after_s <= 2.0
-
-
 def welded(*, master: bool) -> tuple[Bench, Fault]:
     bench = Bench(master=master)
     bench.run(PLUS, 4.0)
@@ -249,51 +181,7 @@ def welded(*, master: bool) -> tuple[Bench, Fault]:
     return bench, fault
 
 
-def test_with_a_master_it_is_cut_and_without_one_a_person_must() -> None:
-    _, fault = welded(master=True)
-    assert (fault.cut, fault.act_now) == (True, "")
-    _, fault = welded(master=False)
-    assert (fault.cut, fault.act_now) == (True, CUT_BY_HAND)
-    assert str(fault).startswith("CUT MOTOR POWER! azimuth: relay welded: ")
-
-
 def test_while_it_turns_the_fault_comes_straight_back() -> None:
     bench, _ = welded(master=False)
     bench.watch.acknowledge()
     assert bench.time_to_fault(1.0, 6.0) == ("relay welded", pytest.approx(STEP_S))
-
-
-def test_what_still_turns_with_the_master_open_is_said() -> None:
-    bench, _ = welded(master=True)
-    for _ in range(100):
-        bench.pass_by(STEP_S, 6.0)
-    assert [str(notice) for notice in bench.watch.notices] == [
-        f"still turning, though the motors' supply should be off: {CUT_BY_HAND}"
-    ]
-
-
-# --- never the opposite relay
-
-
-@NOISES_DEG
-def test_a_healthy_reversal_hardly_waits(noise_deg: float) -> None:
-    bench = Bench(6.0, noise_deg)
-    for way in (PLUS, MINUS, PLUS, MINUS):
-        bench.run(way, 4.0)
-        bench.drive(OFF)
-        bench.pass_by(0.6 if noise_deg < 0.4 else 1.0)
-        assert not bench.watch.forbids(Direction(-way))
-
-
-def test_a_relay_found_welded_must_show_that_it_opens_before_the_opposite_one_is_tried() -> None:
-    bench, _ = welded(master=True)
-    bench.watch.acknowledge()
-    bench.pass_by(10.0)  # it stands, for the supply is gone: that shows nothing
-    fault = bench.watch.accuse(MINUS)
-    assert fault is not None
-    assert (fault.name, fault.cut) == ("relay welded", True)
-    assert bench.watch.accuse(PLUS) is None
-    bench.run(PLUS, 1.0)
-    bench.end_run()
-    bench.pass_by(3.0)
-    assert bench.watch.accuse(MINUS) is None

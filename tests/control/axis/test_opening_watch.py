@@ -187,17 +187,6 @@ def test_what_runs_on_and_stops_dead_in_mid_travel_has_not_coasted(
 
 
 @BOTH_WAYS
-@pytest.mark.parametrize("lag_s", [0.3, 0.5])
-@pytest.mark.parametrize("seed", range(4))
-def test_a_long_coast_is_no_sudden_end(way: Direction, lag_s: float, seed: int) -> None:
-    rotor = WatchedMotor(lag_s=lag_s, seed=seed)
-    rotor.look(2.0)
-    rotor.run(way, 3.0)
-    rotor.look(5.0)
-    assert rotor.watch.trusts == ALL_OPEN
-
-
-@BOTH_WAYS
 def test_a_sensor_that_drifts_while_the_axis_is_held_ends_no_doubt(way: Direction) -> None:
     rotor = ran_into(way, 0.7)
     rotor.look(5.0)

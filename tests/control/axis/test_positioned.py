@@ -76,29 +76,9 @@ def path(rate_dps: float, first_deg: float = 100.0) -> Path:
 # --- aiming
 
 
-def test_without_a_goal_it_holds(motor: Motor) -> None:
-    assert motor.step() is None
-
-
 def test_a_standing_target_is_sent_as_it_is_and_for_a_lease(motor: Motor) -> None:
     motor.axis.aim(AimGoal(235.0, 1.0))
     assert motor.step() == Steer(235.0, 0.0, LEASE_S)
-
-
-def test_a_moving_target_is_sent_with_its_rate(motor: Motor) -> None:
-    motor.axis.aim(AimGoal(100.0, 1.0, path(3.0)))
-    motor.step(1.0)
-    command = motor.step()
-    assert command is not None
-    assert command.angle_deg == pytest.approx(103.0, abs=0.01)
-    assert command.rate_dps == pytest.approx(3.0)
-
-
-def test_at_its_limit_it_stands_while_the_target_moves_on(motor: Motor) -> None:
-    motor.axis.aim(AimGoal(449.0, 1.0, path(3.0, first_deg=449.0)))
-    command = motor.step(1.0)
-    assert command is not None
-    assert (command.angle_deg, command.rate_dps) == (450.0, 0.0)
 
 
 def test_before_anything_is_known_of_its_place_it_holds() -> None:
@@ -117,14 +97,6 @@ def test_an_axis_that_was_never_set_up_is_not_aimed() -> None:
 # --- jogging
 
 
-def test_a_jog_goes_on_from_where_it_is_at_its_own_speed(motor: Motor) -> None:
-    motor.axis.jog(Direction.PLUS, None, 0.0)
-    command = motor.step(1.0)
-    assert command is not None
-    assert command.rate_dps == 30.0
-    assert motor.angle_deg == pytest.approx(130.0, abs=1.0)
-
-
 @pytest.mark.parametrize("way", [-1, 1], ids=["minus", "plus"])
 def test_a_jog_against_a_move_begins_where_the_axis_is(motor: Motor, way: int) -> None:
     """And not at the far target of the move, which it would first go on towards."""
@@ -136,14 +108,6 @@ def test_a_jog_against_a_move_begins_where_the_axis_is(motor: Motor, way: int) -
     assert steered is not None
     assert steered.rate_dps == 30.0 * way
     assert steered.angle_deg == 225.0
-
-
-def test_a_jog_ends_at_the_limit(motor: Motor) -> None:
-    motor.axis.jog(Direction.MINUS, None, 0.0)
-    told = motor.step(5.0)
-    assert told is not None
-    assert (told.angle_deg, told.rate_dps) == (0.0, 0.0), "to let go of it would be to come to rest further on"
-    assert motor.angle_deg == 0.0
 
 
 def test_a_jog_for_a_while_ends_by_itself(motor: Motor) -> None:
@@ -170,27 +134,6 @@ def test_an_axis_that_does_not_follow_is_stopped_and_named(motor: Motor) -> None
     assert str(motor.axis.fault).startswith("azimuth: axis does not follow: ")
     assert all(place in motor.axis.fault.measured for place in (" 100.0°", " 135.0°"))
     assert motor.step() is None
-
-
-def test_one_that_comes_nearer_slowly_follows(motor: Motor) -> None:
-    motor.stuck = True
-    motor.axis.aim(AimGoal(235.0, 1.0))
-    for _ in range(100):
-        motor.angle_deg += 1.0
-        motor.step(0.5)
-    assert motor.axis.fault is None
-
-
-def test_acknowledged_it_obeys_again(motor: Motor) -> None:
-    motor.stuck = True
-    motor.axis.aim(AimGoal(235.0, 1.0))
-    motor.step(STRAY_S + 0.1)
-    motor.stuck = False
-    motor.axis.acknowledge(motor.now_s, by_person=False)
-    assert motor.axis.fault is None
-    motor.axis.aim(AimGoal(235.0, 1.0))
-    motor.step(0.1)
-    assert motor.angle_deg == 235.0
 
 
 def test_a_silent_sensor_holds_it_and_is_a_fault(motor: Motor) -> None:
@@ -249,28 +192,6 @@ def test_a_missing_reading_is_ridden_out_and_starts_nothing(motor: Motor) -> Non
     assert silent(motor) is HOLD
 
 
-def test_stop_and_go_does_not_hide_it_either(motor: Motor) -> None:
-    motor.stuck = True
-    for _ in range(5):
-        motor.axis.aim(AimGoal(235.0, 1.0))
-        motor.step(0.5)
-        motor.axis.halt()
-        motor.step(0.5)
-    assert motor.axis.fault is not None
-    assert motor.axis.fault.kind is FaultKind.NOT_FOLLOWING
-
-
-def test_a_link_has_it_tried_three_times(motor: Motor) -> None:
-    motor.stuck = True
-    for _ in range(6):
-        motor.axis.aim(AimGoal(235.0, 1.0))
-        motor.step(STRAY_S + 0.5)
-        motor.axis.acknowledge(motor.now_s, by_person=False)
-    assert motor.axis.fault is not None
-    assert motor.axis.acknowledge(motor.now_s, by_person=True)
-    assert motor.axis.fault is None
-
-
 def test_orders_that_a_controller_does_not_answer_are_bad_readings(motor: Motor) -> None:
     for count in range(100):
         motor.axis.see(Reading(motor.now_s, 100.0, condition=Condition(missed=count // 10)), motor.now_s)
@@ -284,18 +205,3 @@ def test_a_controller_that_is_silent_for_good_is_not_called_a_bad_sensor(motor: 
         motor.axis.see(Reading(motor.now_s, 100.0, condition=Condition(missed=count)), motor.now_s)
         motor.now_s += STEP_S
     assert motor.axis.fault is None, "its silence is a fault of its own"
-
-
-# --- status
-
-
-def test_it_moves_until_it_is_there(motor: Motor) -> None:
-    motor.stuck = True
-    motor.axis.aim(AimGoal(235.0, 1.0))
-    motor.step()
-    status = motor.axis.status(motor.now_s)
-    assert (status.moving, status.drive, status.target_deg) == (True, Direction.PLUS, 235.0)
-    motor.angle_deg = 235.0
-    motor.step(0.1)
-    status = motor.axis.status(motor.now_s)
-    assert (status.moving, status.drive) == (False, Direction.OFF)

@@ -178,71 +178,8 @@ def test_beside_its_moving_target_it_moves_the_way_the_target_does(motor: Motor,
     assert motor.axis.status(motor.now_s).drive is OFF, "its target stands from now on"
 
 
-def test_halted_it_holds(motor: Motor) -> None:
-    motor.axis.aim(AimGoal(235.0, 1.0))
-    motor.step()
-    motor.axis.halt()
-    assert motor.step() is None
-    assert not motor.axis.busy
-    assert motor.axis.status(motor.now_s).target_deg is None
-
-
 @pytest.mark.parametrize(("seconds", "endless"), [(None, True), (2.0, False)])
 def test_only_a_jog_without_a_time_is_one_without_end(motor: Motor, seconds: float | None, endless: bool) -> None:
     assert not motor.axis.jog_is_held
     motor.axis.jog(PLUS, seconds, motor.now_s)
     assert motor.axis.jog_is_held is endless
-
-
-@BOTH_WAYS
-def test_at_its_very_limit_it_follows_a_target_that_comes_back_and_none_that_goes_on(
-    way: Direction,
-) -> None:
-    motor, limit_deg = Motor(), 450.0 if way > 0 else 0.0
-    motor.angle_deg = limit_deg
-    for rate_dps in (3.0 * way, -3.0 * way):
-        motor.axis.aim(AimGoal(limit_deg, 1.0, path(rate_dps, first_deg=limit_deg)))
-        sent = motor.step()
-        assert sent is not None
-        assert (sent.rate_dps == 0.0) is (rate_dps * way > 0.0)
-        motor.now_s = 0.0
-
-
-# --- a jog
-
-
-@BOTH_WAYS
-def test_a_jog_at_its_limit_does_not_begin(way: Direction) -> None:
-    motor = Motor()
-    motor.angle_deg = 449.6 if way > 0 else 0.4
-    motor.step(0.5)
-    motor.axis.jog(way, None, motor.now_s)
-    assert motor.step() is None
-    assert not motor.axis.busy
-    motor.axis.jog(Direction(-way), None, motor.now_s)
-    assert motor.step() is not None
-
-
-@BOTH_WAYS
-def test_a_jog_is_sent_to_its_limit_as_soon_as_it_can_just_brake_before_it(way: Direction) -> None:
-    """From 30°/s at 20°/s² it takes 22.5°."""
-    motor = Motor(accel_dps2=20.0)
-    motor.angle_deg = 400.0 if way > 0 else 50.0
-    motor.step(0.5)
-    motor.axis.jog(way, None, motor.now_s)
-    limit_deg = 450.0 if way > 0 else 0.0
-    while (sent := motor.step()) is not None and sent.rate_dps:
-        before_deg = motor.angle_deg
-    assert sent is not None
-    assert sent.angle_deg == limit_deg
-    assert abs(limit_deg - before_deg) == pytest.approx(22.5, abs=1.3)
-
-
-def test_while_it_settles_a_jog_begins_where_it_is(motor: Motor) -> None:
-    """A servo that starts does not follow yet: the jog must not run ahead of it."""
-    motor.stuck = True
-    motor.condition = Condition(settling=True)
-    motor.axis.jog(PLUS, None, motor.now_s)
-    sent = motor.step(1.0)
-    assert sent is not None
-    assert sent.angle_deg == 100.0

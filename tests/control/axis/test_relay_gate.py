@@ -106,12 +106,6 @@ def test_a_person_who_watches_does_not_pass_an_axis_whose_contact_changes_by_its
     assert a_gate.accuse(MINUS) is not None
 
 
-def test_a_person_who_has_looked_leaves_no_doubt() -> None:
-    a_gate = gate(trusts=(DOUBTED, WELDED))
-    a_gate.watch.checked()
-    assert a_gate.watch.trusts == (OPEN, OPEN)
-
-
 # --- new readings
 
 
@@ -171,19 +165,6 @@ def test_but_not_while_it_may_still_coast_or_is_driven_or_was_seen_to_stop(maste
 
 
 # --- looking for its stop
-
-
-@pytest.mark.parametrize("homing", [True, False])
-def test_an_axis_that_looks_for_its_stop_may_turn_back_there(homing: bool) -> None:
-    a_gate, now_s = gate(COUNTED), 10.0
-    a_gate.watch.homes(homing=homing, failed=False)
-    switch = Switch(a_gate.note_relays)
-    switch.to(now_s, MINUS)
-    for changes in range(8):
-        now_s = stood(a_gate, now_s, 0.4, Condition(changes=changes, ahead=frozenset((PLUS,))))
-    switch.to(now_s, OFF)
-    now_s = stood(a_gate, now_s, 5.0, Condition(changes=7, ahead=frozenset((PLUS,))))
-    assert (a_gate.passed(Run(PLUS, now_s + 0.3), now_s) == Run(PLUS, now_s + 0.3)) is homing
 
 
 def test_an_axis_that_measures_knows_no_homing() -> None:

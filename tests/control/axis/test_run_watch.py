@@ -72,13 +72,6 @@ def test_a_stop_or_a_reversal_begins_anew(watch: RunWatch) -> None:
     assert first_fault(watch, 161.0, 80.0) is None
 
 
-def test_standing_for_a_day_is_no_fault(watch: RunWatch) -> None:
-    assert watch.see(86_400.0, 12.0) is None
-    switch = Switch(watch.note_relays)
-    switch.to(86_400.0, OFF)
-    assert watch.see(172_800.0, 12.0) is None
-
-
 def test_a_motor_that_has_shown_to_be_slow_has_longer(watch: RunWatch, motors: dict[Direction, Motor]) -> None:
     motors[PLUS] = Motor(3.0, 0.3)
     switch = Switch(watch.note_relays)
@@ -86,12 +79,6 @@ def test_a_motor_that_has_shown_to_be_slow_has_longer(watch: RunWatch, motors: d
     assert first_fault(watch, 0.0, LONGEST_S + 60.0) is None
     switch.to(200.0, MINUS)
     assert first_fault(watch, 200.0, 100.0) is not None, "the other way it is as fast as ever"
-
-
-def test_it_accuses_nothing_by_itself(watch: RunWatch) -> None:
-    assert watch.accuse(MINUS) is None
-    watch.acknowledge()
-    assert watch.notices == ()
 
 
 class Presses:
@@ -128,25 +115,6 @@ def test_presses_without_a_change_of_the_contact_count_together(watch: RunWatch,
     assert pressed_s >= 2.5
     assert told.name == "no pulses"
     assert presses.press(MINUS, press_s) is None, "the next try has its own time"
-
-
-def test_presses_that_change_the_contact_now_and_then_are_no_fault(watch: RunWatch) -> None:
-    presses = Presses(watch)
-    for press in range(60):
-        assert presses.press(PLUS, 1.0) is None
-        presses.changes += press % 2
-
-
-def test_presses_to_and_fro_are_no_fault(watch: RunWatch) -> None:
-    presses = Presses(watch)
-    for press in range(60):
-        assert presses.press((PLUS, MINUS)[press % 2], 1.0) is None
-
-
-def test_taps_that_hardly_start_the_motor_are_no_fault(watch: RunWatch) -> None:
-    presses = Presses(watch)
-    for _ in range(100):
-        assert presses.press(PLUS, 0.15) is None
 
 
 def test_an_axis_that_looks_for_its_stop_may_press_against_it(watch: RunWatch) -> None:
@@ -191,27 +159,3 @@ def test_after_pulses_that_the_rotor_has_missed_the_opposite_relay_stays_forbidd
     axis.goes_on(5.0, fault=fault)
     assert watch.forbids(MINUS) is (kind is FaultKind.NO_PULSES)
     assert not watch.forbids(PLUS)
-
-
-@pytest.mark.parametrize("failed", [False, True])
-def test_at_its_end_stop_it_is_seen_to_stand_unless_the_search_has_failed(watch: RunWatch, failed: bool) -> None:
-    axis = Driven(watch)
-    watch.homes(homing=True, failed=False)
-    axis.goes_on(3.5, MINUS, pulses=False)
-    axis.goes_on(0.05)
-    watch.homes(homing=False, failed=failed)
-    axis.goes_on(5.0)
-    assert watch.forbids(PLUS) is failed
-
-
-def test_after_the_search_silence_is_no_longer_normal(watch: RunWatch) -> None:
-    axis = Driven(watch)
-    watch.homes(homing=True, failed=False)
-    axis.goes_on(2.0, MINUS, pulses=False)
-    axis.goes_on(5.0)
-    watch.homes(homing=False, failed=False)
-    axis.goes_on(2.0, PLUS, pulses=False)
-    axis.goes_on(0.05)
-    watch.homes(homing=False, failed=False)
-    axis.goes_on(5.0)
-    assert watch.forbids(MINUS)

@@ -77,13 +77,6 @@ def test_a_sensor_bad_from_the_start_is_a_fault_as_soon(bench: Bench, raw: float
     assert bench.read_for(4 * STEP_S, raw)[3] is not None
 
 
-def test_a_spark_now_and_then_is_no_fault(bench: Bench) -> None:
-    for _ in range(20):
-        assert bench.read(1.0) is None
-        assert bench.read_for(1.5, 0.5) == [None] * 30
-    assert bench.sensing.believable
-
-
 def test_a_good_reading_ends_the_fault(bench: Bench) -> None:
     bench.read(0.5)
     bench.read_for(1.0, 1.0)

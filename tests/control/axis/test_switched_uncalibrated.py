@@ -52,20 +52,6 @@ def test_a_press_turns_it_for_two_seconds(fresh: Any, asked_s: float | None) -> 
     assert fresh.run(10.0) == set()
 
 
-def test_a_shorter_press_is_a_shorter_turn(fresh: Any) -> None:
-    fresh.step(Jog(EL, MINUS, 0.5))
-    assert fresh.run(0.45) == {(EL, MINUS)}
-    fresh.run(0.1)
-    assert fresh.at_rest()
-
-
-def test_a_second_press_is_a_second_turn_and_may_go_back(fresh: Any) -> None:
-    fresh.step(Jog(AZ, PLUS))
-    fresh.run(3.0)
-    assert fresh.at_rest()
-    assert fresh.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
-
-
 def test_the_other_way_is_obeyed_as_soon_as_the_relay_is_seen_to_open(fresh: Any) -> None:
     fresh.step(Jog(AZ, PLUS))
     fresh.run(0.5)
@@ -179,27 +165,6 @@ def test_two_ends_commission_an_axis_that_lacked_only_them(new_desk: Any, high_f
     desk.place(AZ, 100.0)
     assert desk.status.azimuth.angle_deg == pytest.approx(100.0)
     assert desk.step(Aim(235, None))[AZ] is PLUS
-
-
-def test_the_same_end_twice_is_still_one_end(new_desk: Any) -> None:
-    desk = new_desk(missing=BARE_POTS)
-    for angle_deg in (0.0, 300.0):
-        calibrate(desk, AZ, angle_deg, high_end=False)
-    assert desk.status.azimuth.uncalibrated == "calibration"
-
-
-def test_two_ends_at_one_place_are_refused_and_said(new_desk: Any) -> None:
-    desk = new_desk(missing=BARE_POTS)
-    calibrate(desk, AZ, 200.0, high_end=False)
-    calibrate(desk, AZ, 201.0, high_end=True)
-    assert desk.status.azimuth.uncalibrated == "calibration"
-    assert "too close" in desk.controller.troubles[0]
-
-
-def test_a_calibrated_axis_takes_one_end_anew(desk: Any) -> None:
-    calibrate(desk, AZ, 2.0, high_end=False)
-    assert desk.status.azimuth.angle_deg == pytest.approx(0.0)
-    assert desk.run(5.0) == set()
 
 
 @pytest.mark.parametrize("high_end", [False, True])

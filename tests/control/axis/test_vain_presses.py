@@ -100,17 +100,6 @@ def test_a_long_press_that_turns_it_is_not_in_vain() -> None:
     assert not pot.enough
 
 
-def test_a_person_who_has_looked_begins_anew() -> None:
-    pot = Pot(0.0, 0.1)
-    for _ in range(3):
-        pot.press(2.0)
-        pot.rest(1.0)
-    pot.watch.runs.forget()
-    pot.press(2.0)
-    pot.rest(1.0)
-    assert not pot.enough
-
-
 def test_presses_of_an_earlier_run_of_the_program_count_until_one_moves_it_or_a_person_has_looked() -> None:
     pot = Pot(6.0, 0.1, before=True)
     assert pot.enough

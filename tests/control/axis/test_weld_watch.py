@@ -8,7 +8,6 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.relay_faults import CUT_BY_HAND
-from rotator.exchange.motor import Trust
 from tests.control.axis.watched_motor import STEP_S, WatchedMotor
 
 MINUS, OFF, PLUS = Direction
@@ -131,20 +130,6 @@ def test_an_axis_that_stood_and_then_turns_is_turned_by_something_else(way: Dire
     fault = rotor.push(float(way), 4.0)
     assert fault is not None
     assert fault.name == TURNS
-
-
-@BOTH_WAYS
-@pytest.mark.parametrize("share", [0.5, 1.5])
-def test_with_any_motor_a_relay_that_turns_the_axis_meets_no_opposite_one(way: Direction, share: float) -> None:
-    rotor = known()
-    rotor.motor.pace = share
-    rotor.motor.welded = int(way)
-    rotor.look(4.0)
-    assert rotor.watch.forbids(Direction(-way))
-    accused = rotor.watch.accuse(Direction(-way))
-    assert accused is not None
-    assert (accused.name, accused.cut) == (WELDED, True)
-    assert rotor.watch.trusts[0 if way > 0 else 1] is Trust.WELDED
 
 
 def test_at_a_stop_that_it_ran_into_the_fault_names_the_place() -> None:

@@ -91,10 +91,6 @@ def test_the_product_of_two_directions_is_the_cosine_between_them(
     assert dot(unit(az_a, el_a), unit(az_b, el_b)) == pytest.approx(math.cos(math.radians(between_deg)), abs=1e-9)
 
 
-def test_a_product_of_vectors_of_any_length() -> None:
-    assert dot((2.0, 3.0, 5.0), (7.0, 11.0, 13.0)) == 14.0 + 33.0 + 65.0
-
-
 @given(st.floats(-180, 180), st.floats(0, 90), st.floats(0, 90))
 def test_no_other_elevation_points_nearer_while_azimuth_is_off(off_deg: float, target_deg: float, other: float) -> None:
     lifted = lifted_deg(off_deg, target_deg)

@@ -28,17 +28,9 @@ def test_between_two_rows_it_goes_the_short_way_and_beyond_them_it_stands(
     assert PATH.direction(at_s) == pytest.approx(direction)
 
 
-def test_it_begins_with_the_first_row_and_ends_with_the_last() -> None:
-    assert (PATH.begin_s, PATH.end_s) == (100.0, 130.0)
-
-
 @every_row(("from_s", "count"), [(100.0, 7), (101.0, 6), (130.0, 1), (131.0, 1), (900.0, 1)])
 def test_directions_from_a_moment_to_the_end(from_s: float, count: int) -> None:
     assert PATH.directions(from_s, 5.0) == [PATH.direction(from_s + 5.0 * index) for index in range(count)]
-
-
-def test_two_rows_are_a_path() -> None:
-    assert KnownPath(((0.0, 10.0, 0.0), (1.0, 12.0, 0.0))).direction(0.5) == pytest.approx((11.0, 0.0))
 
 
 @pytest.mark.parametrize(

@@ -126,12 +126,3 @@ def test_the_answer_points_where_it_was_asked_to(
 def test_asked_again_from_where_it_led_the_answer_stays(mount: Mount, azimuth_deg: float, near_deg: float) -> None:
     first, _ = mount.axis_angles(azimuth_deg, 0, near_deg)
     assert mount.axis_angles(azimuth_deg, 0, first)[0] == first
-
-
-# --- ranges
-
-
-def test_a_range_holds_its_ends() -> None:
-    limits = Range(-180, 270)
-    assert [limits.holds(angle) for angle in (-180.1, -180, 0, 270, 270.1)] == [False, True, True, True, False]
-    assert [limits.nearest(angle) for angle in (-200, 45, 300)] == [-180, 45, 270]

@@ -27,13 +27,6 @@ def test_ranges_meet_where_they_have_more_than_an_end_in_common() -> None:
     assert met == [False, True, True, True, False]
 
 
-def test_a_range_grows_to_hold_an_angle_or_by_a_margin() -> None:
-    limits = Range(10, 20)
-    assert [limits.spanning(angle_deg) for angle_deg in (5, 15, 25)] == [Range(5, 20), limits, Range(10, 25)]
-    assert limits.widened(3) == Range(7, 23)
-    assert limits.middle_deg == 15
-
-
 # --- over the top
 
 
@@ -236,15 +229,3 @@ def test_where_elevation_ends_before_the_azimuth_fits_the_elevation_at_which_it_
         assert axes[1] == 10
         sky_azimuth_deg, _ = low.pointed(axes[0], 10.0)
         assert great_circle_deg(sky_azimuth_deg, 0.0, azimuth_deg, 0.0) < 0.1
-
-
-def test_a_leaning_mount_points_where_it_was_asked_to_and_over_the_top_too() -> None:
-    leaning = Mount(Range(0, 450), FULL_EL, flip=True, model=PointingModel(1.0, -2.0, 3.0, -1.0, 0.5, 0.5))
-    for over in (False, True):
-        axis_azimuth_deg, axis_elevation_deg = leaning.axis_angles(70, 40, 200.0, over=over)
-        assert axis_elevation_deg is not None
-        assert (axis_elevation_deg > 90) is over
-        assert great_circle_deg(*leaning.pointed(axis_azimuth_deg, axis_elevation_deg), 70, 40) < 1e-6
-    level_deg, none = leaning.axis_angles(70, None, 0.0)
-    assert none is None
-    assert level_deg == pytest.approx(leaning.axis_angles(70, 0, 0.0)[0])

@@ -96,12 +96,6 @@ def test_a_pass_that_begins_with_a_nudge_is_shifted_from_its_beginning(desk: Any
     assert targets(desk) == (100.0, 0.0)
 
 
-def test_the_display_tells_what_is_meant(desk: Any) -> None:
-    desk.step(Aim(235.0, 60.0), by=LINK)
-    desk.step(Nudge(AZ, 10.0), by=PANEL)
-    assert desk.status.wanted_azimuth_deg == 245.0
-
-
 @pytest.mark.parametrize(
     "order",
     [

@@ -23,10 +23,6 @@ def test_each_axis_has_its_own() -> None:
     assert [angle_deg for _, angle_deg in shift.reported(Axis.ELEVATION, POINTS)] == [-3.0, 167.0, 447.0]
 
 
-def test_readings_stay() -> None:
-    assert [raw for raw, _ in offsets(10.0).reported(Axis.AZIMUTH, POINTS)] == [raw for raw, _ in POINTS]
-
-
 def test_what_is_kept_is_the_rotors_own_scale() -> None:
     shift = offsets(12.5, 1.0, -4.0)
     for axis in Axis:
@@ -68,8 +64,3 @@ def test_the_controller_works_in_shifted_degrees() -> None:
     status = controller.status(0.0)
     assert status.azimuth.calibration == ((0.05, 20.0), (0.95, 470.0))
     assert status.elevation.calibration == ((0.05, -2.0), (0.95, 178.0))
-
-
-def test_without_a_word_in_the_file_nothing_is_added() -> None:
-    assert (Offsets().azimuth_deg, Offsets().elevation_deg) == (0.0, 0.0)
-    assert offsets() == Offsets()
