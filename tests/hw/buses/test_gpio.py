@@ -15,7 +15,7 @@ import pytest
 
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
-from hw.buses.gpio import GpioInputs, GpioOutputs, find_chip, holders, real_gpiod
+from hw.buses.gpio import GpioOutputs, find_chip, holders, real_gpiod
 from hw.ports import HardwareError
 
 PI_4 = {"/dev/gpiochip0": "pinctrl-bcm2711", "/dev/gpiochip1": "raspberrypi-exp-gpio"}
@@ -51,16 +51,6 @@ class Forbidden:
 def test_without_permission_it_names_the_group() -> None:
     with pytest.raises(HardwareError, match="no permission for /dev/gpiochip0: add the user to the group gpio"):
         find_chip(Forbidden(), paths=["/dev/gpiochip0"])
-
-
-# --- the lines
-
-
-def test_a_switch_to_ground_reads_closed_and_an_open_one_is_pulled_up() -> None:
-    gpio = simulated(PI_4)
-    gpio.drive_input(10, False)
-    inputs = GpioInputs(gpio, "/dev/gpiochip0", {"msb": 10, "lsb": 9}, consumer="test")
-    assert inputs.read() == {"msb": True, "lsb": False}
 
 
 # --- looking without taking

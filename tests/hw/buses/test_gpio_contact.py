@@ -10,7 +10,7 @@ import pytest
 
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
-from hw.buses.gpio import GpioContact, LinesBusyError
+from hw.buses.gpio import GpioContact
 from hw.ports import HardwareError
 
 PATH = "/dev/gpiochip0"
@@ -40,12 +40,6 @@ def test_what_was_dropped_is_counted(gpio: SimGpio, clock: SimClock) -> None:
     changes = contact.changes()
     assert (len(changes), changes[0].lost) == (1024, 1200 - 1024)
     assert {change.lost for change in changes[1:]} == {0}
-
-
-def test_a_busy_line_is_named(gpio: SimGpio) -> None:
-    GpioContact(gpio, PATH, PIN, consumer="another program")
-    with pytest.raises(LinesBusyError, match=r"cannot take contact on GPIO17: a line is taken by another program"):
-        GpioContact(gpio, PATH, PIN, consumer="test")
 
 
 class Unplugged:

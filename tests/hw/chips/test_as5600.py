@@ -60,15 +60,6 @@ def test_a_magnet_that_cannot_be_relied_on(bench: Bench, fault: MagnetFault, wor
     assert sensor.read() == pytest.approx(0.3, abs=STEP)
 
 
-def test_a_chip_that_is_gone_and_comes_back(bench: Bench) -> None:
-    sensor = bench.driver()
-    bench.wire.gone.add(0x36)
-    with pytest.raises(HardwareError, match=r"does not answer; check its wiring, power and address \(address 0x36\)"):
-        sensor.read()
-    bench.wire.gone.clear()
-    assert sensor.read() == pytest.approx(0.3, abs=STEP)
-
-
 class Corrupted:
     """A chip whose answers arrive with bits turned to ones."""
 

@@ -22,7 +22,7 @@ from hw.buses.spi import KernelSpi
 from hw.chips.as5045 import As5045
 from hw.chips.as5048 import As5048a, As5048b
 from hw.chips.magnet import MagneticEncoder
-from hw.chips.mt6701 import Mt6701, Mt6701Ssi, crc6
+from hw.chips.mt6701 import Mt6701, Mt6701Ssi
 from hw.ports import HardwareError
 
 Chip = SimAs5045 | SimAs5048a | SimAs5048b | SimMt6701 | SimMt6701Ssi
@@ -103,16 +103,6 @@ def test_a_magnet_that_cannot_be_relied_on(kind: str, fault: MagnetFault, words:
     bench.chip.fault = fault
     assert words in bench.refused()
     bench.chip.fault = MagnetFault.NONE
-    assert bench.driver.read() == pytest.approx(0.3, abs=1 / 4096)
-
-
-@pytest.mark.parametrize("kind", ON_SPI)
-def test_a_chip_without_supply_is_no_angle(kind: str) -> None:
-    bench = Bench(kind)
-    assert isinstance(bench.chip, SimAs5045 | SimAs5048a | SimMt6701Ssi)
-    bench.chip.gone = True
-    assert "does not answer; look at its supply, and at the wires of select, clock and data" in bench.refused()
-    bench.chip.gone = False
     assert bench.driver.read() == pytest.approx(0.3, abs=1 / 4096)
 
 
@@ -205,11 +195,3 @@ def test_nothing_is_ever_written_into_a_chip(kind: str) -> None:
             continue
     assert not isinstance(bench.chip, SimAs5045 | SimMt6701Ssi)
     assert bench.chip.written == []
-
-
-def test_the_checksum_of_an_mt6701_is_zero_over_its_own_remainder() -> None:
-    for bits in (0b1, 0x2AAAA, 0x3FFFF, 0x12345):
-        word = bits << 6 | crc6(bits)
-        for place in range(23, 5, -1):
-            word ^= 0b1000011 << place - 6 if word >> place & 1 else 0
-        assert word == 0

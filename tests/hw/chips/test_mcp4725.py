@@ -8,7 +8,6 @@ from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.chips.mcp4725 import Mcp4725 as SimChip
 from hw.buses.i2c import SmbusI2C
 from hw.chips.mcp4725 import Mcp4725
-from hw.ports import HardwareError
 
 STEP = 1 / 4096
 
@@ -51,11 +50,3 @@ def test_its_eeprom_which_wears_out_is_written_once() -> None:
     for _ in range(3):
         bench.driver(0.1).duty(0.6)
     assert bench.chip.kept_writes == 1
-
-
-def test_a_chip_that_does_not_answer_is_named_by_its_address() -> None:
-    bench = Bench()
-    driver = bench.driver()
-    bench.wire.gone.add(0x60)
-    with pytest.raises(HardwareError, match=r"bus 1: the device does not answer.*0x60"):
-        driver.duty(0.5)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from hw.drives.brake import BRAKES
 from hw.ports import Axis, Direction, HardwareError
-from hw.safety.off_at_once import BRAKE, BRAKE_AFTER_S
+from hw.safety.off_at_once import BRAKE_AFTER_S
 from tests.hw.drives.brake_bench import AZ, TIMES, BrakeBench
 
 MINUS, OFF, PLUS = Direction
@@ -52,24 +51,6 @@ def test_an_order_that_is_taken_back_lets_the_brake_engage_again() -> None:
     assert not bench.released
 
 
-@pytest.mark.parametrize("end", ["off", "expiry", "all off"])
-def test_however_a_run_ends_the_motor_is_off_at_once_and_the_brake_later(end: str) -> None:
-    bench = BrakeBench()
-    bench.run(PLUS, 2.0)
-    match end:
-        case "off":
-            bench.drive(OFF)
-        case "all off":
-            bench.bank.off()
-        case _:
-            bench.clock.sleep(0.5)
-    assert bench.bank.driven()[AZ] is OFF
-    assert bench.released
-    bench.clock.sleep(TIMES.held_off_s + 0.5)
-    assert not bench.released
-    assert bench.harm == (0.0, 0)
-
-
 def test_while_the_antenna_is_seen_to_turn_the_brake_waits() -> None:
     bench = BrakeBench()
     bench.run(PLUS, 2.0)
@@ -86,15 +67,6 @@ def test_the_other_axis_has_no_brake_and_does_not_wait() -> None:
     bench = BrakeBench()
     assert bench.bank.drive(Axis.ELEVATION, PLUS, bench.clock() + 0.2) is PLUS
     assert not bench.released
-
-
-def test_a_reversal_waits_for_its_dead_time_with_the_brake_off() -> None:
-    bench = BrakeBench()
-    bench.run(PLUS, 2.0)
-    on = bench.run(MINUS, 1.0)
-    assert on[:10] == [OFF] * 10
-    assert set(on[11:]) == {MINUS}
-    assert bench.released
 
 
 def test_a_program_that_ends_leaves_its_brake_engaged_within_the_time_it_gives() -> None:
@@ -145,7 +117,3 @@ def test_a_brakes_line_that_fails_starts_no_motor_and_is_switched_off_again() ->
     bench.clock.sleep(0.01)
     assert not bench.bank.released
     assert bench.drive(PLUS) is OFF, "it begins anew"
-
-
-def test_whoever_switches_the_lines_off_knows_a_brake_by_its_name() -> None:
-    assert all(line.endswith(BRAKE) for line in BRAKES.values())

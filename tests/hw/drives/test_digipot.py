@@ -16,7 +16,6 @@ from hw.chips.mcp41010 import Mcp41010
 from hw.drives.box_supply import ENABLE
 from hw.drives.control_box import BoxSpec
 from hw.drives.digipot import DigipotDrive
-from hw.drives.leases import LONGEST_LEASE_S
 from hw.ports import Axis, HardwareError
 from hw.safety.guard import Guard
 from tests.tables import every_row
@@ -87,43 +86,7 @@ def test_without_a_relay_the_box_turns_to_the_middle_before_any_order() -> None:
     assert bench.antenna(AZ) == pytest.approx(180.0, abs=BAND_DEG)
 
 
-def test_with_the_relay_nothing_turns_before_the_first_aim() -> None:
-    bench = Bench()
-    bench.clock.sleep(40.0)
-    bench.drive.hold(AZ)
-    bench.drive.off()
-    assert bench.rotor.antenna() == (40.0, 30.0)
-    assert not bench.rotor.gpio.level(ENABLE_PIN)
-
-
 # --- motion
-
-
-@pytest.mark.parametrize("stop", ["hold", "off", "expiry"])
-def test_stop_is_where_it_is(stop: str) -> None:
-    bench = Bench()
-    bench.follow(AZ, 340.0, 5.0)
-    at_deg = bench.antenna(AZ)
-    match stop:
-        case "hold":
-            bench.drive.hold(AZ)
-        case "off":
-            bench.drive.off()
-        case _:
-            bench.drive.aim(AZ, 340.0, 0.0, bench.clock() + 60.0)
-            at_deg += 6.0 * LONGEST_LEASE_S
-    bench.clock.sleep(10.0)
-    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.5)
-
-
-def test_a_chip_that_forgot_its_step_gets_it_again() -> None:
-    bench = Bench()
-    bench.follow(AZ, 42.0, 2.0)
-    bench.rotor.inject("azimuth-chip-dips")
-    bench.clock.sleep(1.0)
-    bench.clock.sleep(5.0)
-    assert bench.antenna(AZ) == pytest.approx(42.0, abs=BAND_DEG + 1.0)
-    assert bench.rotor.azimuth.chip.step != 0x80
 
 
 def test_an_angle_outside_the_calibration_is_refused_and_moves_nothing() -> None:
@@ -131,17 +94,6 @@ def test_an_angle_outside_the_calibration_is_refused_and_moves_nothing() -> None
     with pytest.raises(HardwareError, match=r"elevation box: 91.0° is outside its calibration table"):
         bench.drive.aim(EL, 91.0, 0.0, bench.clock() + 0.25)
     assert not bench.rotor.gpio.level(ENABLE_PIN)
-
-
-def test_release_takes_the_supply_and_an_aim_gives_it_back() -> None:
-    bench = Bench()
-    bench.follow(AZ, 340.0, 3.0)
-    bench.drive.release()
-    at_deg = bench.antenna(AZ)
-    bench.clock.sleep(20.0)
-    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.5)
-    bench.follow(AZ, at_deg, 3.0)
-    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=BAND_DEG)
 
 
 def test_chips_that_forgot_their_steps_get_them_before_the_supply_comes_back() -> None:
@@ -154,43 +106,6 @@ def test_chips_that_forgot_their_steps_get_them_before_the_supply_comes_back() -
 
 
 # --- what a model does not know
-
-
-def watched(bench: Bench, seconds: float, *, aim_deg: float | None = None) -> None:
-    """Its pot is read 20 times a second, while it is aimed, or held."""
-    for _ in range(round(seconds / CYCLE_S)):
-        if aim_deg is None:
-            bench.drive.hold(AZ)
-        else:
-            bench.drive.aim(AZ, aim_deg, 0.0, bench.clock() + 0.25)
-        bench.clock.sleep(CYCLE_S)
-        bench.drive.found(AZ, bench.antenna(AZ))
-
-
-def test_then_neither_an_aim_nor_a_stop_of_either_box_gives_it_supply_again_before_it_is_restored() -> None:
-    bench = Bench()
-    bench.rotor.inject("azimuth-select-broken")
-    watched(bench, 10.0, aim_deg=20.0)
-    assert bench.drive.astray_deg(AZ) == pytest.approx(4.5, abs=0.5)
-    assert bench.drive.astray_deg(EL) == 0.0
-    watched(bench, 1.0)
-    bench.follow(EL, 80.0, 5.0)
-    watched(bench, 5.0, aim_deg=20.0)
-    assert bench.antenna(AZ) == pytest.approx(40.0, abs=6.0)
-    assert bench.antenna(EL) == pytest.approx(30.0, abs=BAND_DEG)
-    bench.rotor.clear("azimuth-select-broken")
-    bench.drive.restore()
-    assert bench.drive.astray_deg(AZ) == 0.0
-    bench.follow(EL, 80.0, 12.0)
-    assert bench.antenna(EL) == pytest.approx(80.0, abs=BAND_DEG)
-
-
-def test_without_a_relay_the_boxes_have_supply_and_need_not_wait_for_a_sensor() -> None:
-    bench = Bench(relay=False)
-    bench.drive.measured(EL)
-    assert bench.drive.unseen_s() == 0.0
-    bench.follow(AZ, 90.0, 40.0)
-    assert bench.antenna(AZ) == pytest.approx(90.0, abs=BAND_DEG)
 
 
 class FailingEnable:

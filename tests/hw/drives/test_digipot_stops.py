@@ -61,22 +61,6 @@ def test_a_stop_stops_at_any_true_angle_of_the_rotor(
     assert bench.rotor.shafts() == pytest.approx(before_deg, abs=COAST_DEG)
 
 
-@pytest.mark.parametrize("true_deg", [0.0, 80.0, 300.0])
-def test_one_axis_stopped_early_stays_although_the_other_is_ordered_on(true_deg: float) -> None:
-    bench = bench_at(true_deg, 180.0)
-    both(bench, 350.0, 60.0, 1.0)
-    bench.drive.hold(AZ)
-    stood_deg = bench.rotor.shafts()
-    for _ in range(100):
-        bench.drive.hold(AZ)
-        bench.drive.aim(EL, 60.0, 0.0, bench.clock() + 0.25)
-        bench.clock.sleep(0.05)
-    assert bench.rotor.shafts() == pytest.approx(stood_deg, abs=COAST_DEG)
-    bench.drive.hold(EL)
-    bench.follow(EL, 60.0, 20.0)
-    assert bench.antenna(EL) == pytest.approx(60.0, abs=1.5), "a new order moves it again"
-
-
 def test_when_a_full_travel_is_over_a_stop_needs_no_relay() -> None:
     bench = bench_at(300.0, 180.0)
     assert not bench.drive.position_known(AZ)

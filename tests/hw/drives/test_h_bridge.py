@@ -205,16 +205,6 @@ def test_a_reversal_waits_out_its_dead_time(bench: Bench) -> None:
     assert bench.world.azimuth.motor.drive == -1
 
 
-def test_a_command_that_nobody_renews_ends_within_half_a_second_of_its_last_word(bench: Bench) -> None:
-    bench.follow(2.0, 300.0)
-    bench.drive.aim(AZ, 300.0, 0.0, bench.clock() + 60.0)
-    bench.clock.sleep(0.5 + 1.0 + 0.3)  # the lease, and the way down from 3°/s
-    assert bench.is_off()
-    stood_deg = bench.shaft_deg
-    bench.clock.sleep(5.0)
-    assert bench.shaft_deg == pytest.approx(stood_deg, abs=0.01)
-
-
 def test_off_is_duty_0_and_every_line_off_at_once_and_the_watch_is_told(bench: Bench) -> None:
     bench.follow(2.0, 300.0)
     assert bench.watch.heard == "+"
@@ -237,32 +227,6 @@ def test_a_cut_holds_the_enable_line_off_until_it_is_restored(bench: Bench) -> N
     assert bench.shaft_deg - from_deg > 3.0
 
 
-@pytest.mark.parametrize(
-    ("fault", "amiss", "within_s"),
-    [
-        ("azimuth-motor-stalled", Amiss.QUIET, 1.5),
-        ("azimuth-encoder-dead", Amiss.QUIET, 1.5),
-        ("azimuth-encoder-channel-stuck", Amiss.QUIET, 1.5),
-        ("azimuth-motor-reversed", Amiss.WRONG_WAY, 1.5),
-        ("azimuth-bridge-shorted-ccw", Amiss.WRONG_WAY, 1.5),
-    ],
-)
-def test_what_the_encoder_says_against_the_drive_stops_it(
-    bench: Bench, fault: str, amiss: Amiss, within_s: float
-) -> None:
-    bench.world.inject(fault)
-    bench.follow(within_s, 120.0)
-    found = bench.drive.amiss(AZ)
-    assert found is not None
-    assert found[0] is amiss
-    bench.clock.sleep(0.1)
-    assert bench.is_off()
-    bench.world.clear(fault)
-    bench.drive.acknowledge(AZ)
-    bench.follow(1.5, bench.shaft_deg + 10.0)
-    assert bench.drive.amiss(AZ) is None
-
-
 def test_a_failed_transistor_that_turns_a_motor_whose_lines_are_off_is_seen_within_two_seconds() -> None:
     bench = Bench()
     bench.clock.sleep(3.0)
@@ -271,19 +235,6 @@ def test_a_failed_transistor_that_turns_a_motor_whose_lines_are_off_is_seen_with
     found = bench.drive.amiss(AZ)
     assert found is not None
     assert found[0] is Amiss.TURNING
-
-
-def test_a_pwm_that_takes_no_duty_is_an_error_that_passes(bench: Bench) -> None:
-    bench.world.inject("pwm-refuses")
-    bench.follow(0.3, 120.0)
-    assert bench.drive.failure
-    assert bench.failures[0].startswith("PWM on GPIO18: the kernel does not take it")
-    assert bench.is_off()
-    bench.world.clear("pwm-refuses")
-    bench.clock.sleep(1.1)
-    assert bench.drive.failure is None
-    bench.follow(2.0, 93.0)
-    assert bench.shaft_deg > 91.0
 
 
 def test_a_start_that_has_to_wait_begins_nothing(bench: Bench) -> None:

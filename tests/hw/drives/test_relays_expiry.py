@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import threading
 from contextlib import suppress
 
 import pytest
 
 from firmware_sim.clock import SimClock
-from hw.drives.leases import LONGEST_LEASE_S
 from hw.drives.motor_supply import MASTER_LINGER_S
 from hw.drives.relays import RelayBank
 from hw.ports import HardwareError
@@ -17,15 +15,6 @@ from tests.hw.drives.relay_bench import AZ, DEAD_TIME_S, EL, MINUS, OFF, PINS, P
 from tests.tables import every_row
 
 # --- every command ends by itself
-
-
-@every_row("asked_s", [0.02, 0.25, LONGEST_LEASE_S, 0.51, 3600.0, math.inf])
-def test_without_renewal_the_relay_opens(asked_s: float) -> None:
-    bench = Bench()
-    bench.drive(EL, PLUS, asked_s)
-    bench.clock.sleep(60.0)
-    on, off = bench.gpio.edges
-    assert off.at_s - on.at_s == pytest.approx(min(asked_s, 0.5))
 
 
 class OneLineStuck:

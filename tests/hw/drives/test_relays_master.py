@@ -66,28 +66,3 @@ def test_a_look_at_the_supply_ends_like_a_run() -> None:
     bench.bank.cut()
     bench.bank.feed(AZ, bench.clock() + 0.25)
     assert bench.on() == set(), "the supply was cut"
-
-
-def test_a_shorter_look_ends_no_longer_one_and_no_linger() -> None:
-    bench = Bench(master=True)
-    bench.bank.feed(AZ, bench.clock() + 0.5)
-    bench.bank.feed(EL, bench.clock() + 0.1)
-    bench.clock.sleep(0.2)
-    bench.bank.unfeed(EL)
-    assert bench.on() == {"master"}
-    bench.clock.sleep(0.2)
-    assert bench.on() == {"master"}
-    bench.clock.sleep(0.1)
-    bench.drive(AZ, PLUS)
-    bench.clock.sleep(0.3)
-    bench.bank.feed(AZ, bench.clock() + 0.1)
-    bench.clock.sleep(5.0)
-    assert bench.on() == {"master"}
-
-
-def test_when_all_is_switched_off_a_look_at_the_supply_is_over() -> None:
-    bench = Bench(master=True)
-    bench.bank.feed(AZ, bench.clock() + 0.5)
-    bench.bank.off()
-    assert bench.on() == set()
-    assert bench.bank.due_s() is None

@@ -25,18 +25,3 @@ def test_a_straight_line_between_points_both_ways(scale: CommandScale, angle_deg
 def test_outside_the_table(angle_deg: float) -> None:
     with pytest.raises(HardwareError, match=r"azimuth servo: .* outside its calibration table, 0° to 180°"):
         SERVO.value(angle_deg)
-
-
-@every_row(
-    ("points", "said"),
-    [
-        ((), "needs two points or more"),
-        (((0, 500),), "needs two points or more"),
-        (((0, 500), (0, 600)), "angles must rise from point to point"),
-        (((0, 500), (90, 1500), (180, 1400)), "numbers must rise, or fall, all the way"),
-        (((0, 500), (90, 500)), "numbers must rise, or fall, all the way"),
-    ],
-)
-def test_a_wrong_table_is_refused(points: tuple[tuple[float, float], ...], said: str) -> None:
-    with pytest.raises(HardwareError, match=said):
-        CommandScale("elevation servo", points)

@@ -18,8 +18,7 @@ from hw.buses.i2c import SmbusI2C
 from hw.chips.pca9685 import Pca9685
 from hw.drives.servo import ENABLE, ServoDrive
 from hw.drives.servo_axis import ServoSpec
-from hw.ports import AngleSource, Axis, HardwareError
-from hw.safety.guard import PATIENCE_S
+from hw.ports import Axis, HardwareError
 from tests.search import examples
 from tests.tables import every_row
 
@@ -175,32 +174,6 @@ def test_the_ordered_pulse_never_leaps() -> None:
     assert bench.antenna(AZ) == pytest.approx(60 + 40 * 2.0, abs=2.0)
 
 
-def test_a_moving_target_is_followed_between_orders() -> None:
-    bench = Bench()
-    bench.settle()
-    bench.follow(AZ, 60.0, 10.0, rate_dps=3.0)
-    assert bench.antenna(AZ) == pytest.approx(90.0, abs=0.5)
-    assert bench.drive.sensor(AZ).read() == pytest.approx(90.0, abs=0.1)
-    assert bench.drive.sensor(AZ).source is AngleSource.MODELLED
-
-
-@pytest.mark.parametrize("stop", ["hold", "off", "an aim that has run out"])
-def test_stop_at_once(stop: str) -> None:
-    bench = Bench()
-    bench.settle()
-    bench.follow(AZ, 180.0, 1.0)
-    at_deg = bench.antenna(AZ)
-    match stop:
-        case "hold":
-            bench.drive.hold(AZ)
-        case "off":
-            bench.drive.off()
-        case _:
-            bench.drive.aim(AZ, 180.0, 0.0, bench.clock())
-    bench.clock.sleep(2.0)
-    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.0)
-
-
 def test_a_stop_never_waits_for_a_bus_that_hangs() -> None:
     bench = Bench()
     bench.settle()
@@ -236,29 +209,6 @@ def test_release_is_limp_and_the_next_aim_is_a_first_one() -> None:
     bench.follow(AZ, 61.0, SETTLED_S)
     assert bench.drive.position_known(AZ)
     assert bench.antenna(AZ) == pytest.approx(61.0, abs=2 * TICK_DEG)
-
-
-# --- the board
-
-
-@pytest.mark.parametrize("fault", ["board-unpowered", "board-dips"])
-def test_a_board_without_supply_is_an_error_and_comes_back_without_a_pulse(fault: str) -> None:
-    bench = Bench()
-    bench.settle()
-    bench.rotor.inject(fault)
-    with pytest.raises(HardwareError):
-        bench.follow(AZ, 100.0, 1.2)
-    assert {AZ, EL} == set(bench.drive.faults())
-    assert bench.rotor.gpio.level(OE_PIN), "no servo gets what the board sends"
-    with pytest.raises(HardwareError, match="0x40"):
-        bench.drive.sensor(AZ).read()
-    bench.rotor.clear(fault)
-    bench.clock.sleep(0.5 + PATIENCE_S)
-    assert bench.drive.faults() == {}
-    assert bench.rotor.board.pulse_us(0) is None
-    assert not bench.drive.position_known(AZ)
-    bench.follow(AZ, 100.0, SETTLED_S + 2.0)
-    assert bench.antenna(AZ) == pytest.approx(100.0, abs=TICK_DEG)
 
 
 # --- the next run of the program

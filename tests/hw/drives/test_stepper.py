@@ -92,20 +92,6 @@ class Bench:
             self.drive.angle_deg(AZ)
 
 
-def test_it_goes_there_and_stands_there() -> None:
-    bench = Bench()
-    bench.go(120.0, 6.0)
-    assert bench.at_deg == pytest.approx(120.0, abs=0.001)
-    assert bench.drive.angle_deg(AZ) == pytest.approx(120.0, abs=0.001)
-    assert bench.drive.stands_at(AZ, 120.0)
-
-
-def test_it_follows_what_moves_on() -> None:
-    bench = Bench()
-    bench.go(90.0, 10.0, rate_dps=2.0)
-    assert bench.at_deg == pytest.approx(110.0, abs=0.02)
-
-
 def test_a_program_that_dies_leaves_no_motor_running() -> None:
     """Without a guard: the chip itself has no further target."""
     bench = Bench()
@@ -221,17 +207,6 @@ def test_a_power_cut_without_a_gear_that_holds() -> None:
     bench = Bench(spec=replace(SPEC, self_locking=False))
     bench.drive.angle_deg(AZ)
     assert "its gear does not hold" in bench.drive.lost(AZ)
-
-
-def test_a_dip_in_a_move_is_a_fault_and_the_place_is_lost() -> None:
-    bench = Bench()
-    bench.go(360.0, 3.0)
-    bench.world.inject("azimuth-chip-dips")
-    bench.drive.angle_deg(AZ)
-    assert bench.drive.trouble(AZ) == (Trouble.RESET, "its chip has been without supply, and its count is gone")
-    assert bench.drive.lost(AZ)
-    with pytest.raises(HardwareError, match="its count is gone"):
-        bench.drive.aim(AZ, 100.0, 0.0, bench.clock() + 0.25)
 
 
 def test_an_encoder_sees_lost_steps_and_still_knows_the_place() -> None:

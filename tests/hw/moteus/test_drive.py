@@ -76,23 +76,6 @@ def test_an_aim_without_renewal_ends_in_a_hold() -> None:
     assert bench.drive.due_s() is None
 
 
-@pytest.mark.parametrize("how", ["hold", "off", "aim that has ended"])
-def test_a_stop_decelerates_and_holds(how: str) -> None:
-    bench = Bench()
-    bench.follow(AZ, 300.0, 3.0)
-    at_deg = bench.antenna(AZ)
-    match how:
-        case "hold":
-            bench.drive.hold(AZ)
-        case "off":
-            bench.drive.off()
-        case _:
-            bench.drive.aim(AZ, 300.0, 0.0, bench.clock())
-    bench.clock.sleep(10.0)
-    assert bench.antenna(AZ) - at_deg == pytest.approx(30**2 / (2 * 20), abs=0.7)
-    assert bench.mode(AZ) is Mode.POSITION
-
-
 def test_nothing_gets_torque_before_it_is_aimed() -> None:
     bench = Bench()
     bench.drive.hold(AZ)

@@ -51,15 +51,6 @@ def test_a_fault_that_is_still_there_comes_back() -> None:
         assert bench.drive.faults() == {}
 
 
-def test_a_controller_held_back_by_its_bounds_says_so_and_is_not_at_fault() -> None:
-    bench = Bench()
-    bench.world.inject("azimuth-factory-bounds")
-    bench.follow(AZ, 20.0, 3.0)
-    assert bench.antenna(AZ) == pytest.approx(3.6, abs=1e-3)
-    assert "position bounds" in bench.drive.limits()[AZ].name
-    assert bench.drive.faults() == {}
-
-
 def test_the_watchdog_stops_it_when_the_program_dies_and_a_person_wakes_it() -> None:
     bench = Bench()
     bench.follow(AZ, 300.0, 3.0)

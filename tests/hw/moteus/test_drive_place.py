@@ -6,30 +6,10 @@ import pytest
 
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
-from firmware_sim.moteus.motor import Mode
 from hw.moteus.axis import STALE_S
 from hw.moteus.errands import ERRAND_S
 from hw.ports import HardwareError
 from tests.hw.moteus.drive_bench import AZ, Bench
-
-
-def test_behind_a_gear_a_new_supply_means_an_unknown_position() -> None:
-    bench = Bench(start_deg=(123.0, 0.0))
-    assert bench.drive.position_known(AZ)
-    bench.follow(AZ, 124.0, 1.0)
-    bench.world.inject("azimuth-power-cycled")
-    bench.clock.sleep(0.2)
-    assert not bench.drive.position_known(AZ)
-    for ask in (bench.drive.sensor(AZ).read, lambda: bench.follow(AZ, 120.0, 0.1)):
-        with pytest.raises(HardwareError, match="does not know which way the antenna points"):
-            ask()
-    # The operator estimates: some 3° off, and less than half a turn of the rotor, which is 7.2° of antenna.
-    bench.drive.confirm(AZ, 127.0)
-    bench.clock.sleep(0.5)
-    assert bench.drive.position_known(AZ)
-    assert bench.drive.sensor(AZ).read() == pytest.approx(124.0, abs=0.01)
-    bench.follow(AZ, 130.0, 3.0)
-    assert bench.antenna(AZ) == pytest.approx(130.0, abs=0.01)
 
 
 def test_a_confirmation_that_cannot_be_delivered_is_forgotten_before_the_antenna_has_turned() -> None:
@@ -44,22 +24,6 @@ def test_a_confirmation_that_cannot_be_delivered_is_forgotten_before_the_antenna
     bench.clock.sleep(STALE_S + 0.1)
     with pytest.raises(HardwareError, match="does not answer"):
         bench.drive.confirm(AZ, 33.0)
-
-
-@pytest.mark.parametrize("brakes", [False, True], ids=["turning", "braking"])
-def test_while_it_turns_no_angle_is_confirmed_and_it_keeps_its_torque(brakes: bool) -> None:
-    bench = Bench()
-    bench.follow(AZ, 300.0, 2.0)
-    if brakes:
-        bench.drive.hold(AZ)
-        bench.clock.sleep(0.3)
-    with pytest.raises(HardwareError, match="it turns; look where it points when it stands"):
-        bench.drive.confirm(AZ, 33.0)
-    bench.clock.sleep(0.1)
-    assert bench.mode(AZ) is Mode.POSITION
-    bench.drive.hold(AZ)
-    bench.clock.sleep(3.0)
-    bench.drive.confirm(AZ, 33.0, exactly=True)
 
 
 def test_a_controller_that_lost_its_supply_is_queried_before_it_gets_an_order_to_move() -> None:

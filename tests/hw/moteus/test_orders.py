@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from hw.moteus.orders import WATCHDOG_S, Home, Mode, MoteusSpec
+from hw.moteus.orders import Home, Mode, MoteusSpec
 from rotator.config.kinds.moteus import MoteusAxisTable
 from tests.tables import every_row
 
@@ -14,10 +14,6 @@ from tests.tables import every_row
 def test_the_registers_have_the_reference_s_numbers() -> None:
     assert {mode.name: mode.value for mode in Mode} == {"STOPPED": 0, "FAULT": 1, "POSITION": 10, "TIMEOUT": 11}
     assert {home.name: home.value for home in Home} == {"RELATIVE": 0, "ROTOR": 1, "OUTPUT": 2}
-
-
-def test_a_controller_that_hears_nothing_stops_after_half_a_second() -> None:
-    assert WATCHDOG_S == 0.5
 
 
 def test_what_is_left_out_is_as_in_a_configuration_that_leaves_it_out() -> None:

@@ -5,8 +5,6 @@ The real driver and mjbots' library on simulated controllers. Judged by where th
 
 from __future__ import annotations
 
-import contextlib
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -59,47 +57,11 @@ def test_at_270_it_knows_so_and_goes_to_280(encoder: dict[str, float]) -> None:
     assert bench.world.controller("azimuth").motor.position_rev == pytest.approx(280 / 360, abs=1e-3), "for its bounds"
 
 
-@pytest.mark.long
-@WITHOUT_A_PERSON
-@pytest.mark.parametrize("true_deg", [45.0, 405.0])
-def test_where_two_turns_fit_it_does_not_move_until_a_person_says_which(
-    encoder: dict[str, float], true_deg: float
-) -> None:
-    bench = Bench(start_deg=(true_deg, 0.0), **encoder)  # type: ignore[arg-type]  # keywords of two types
-    powered_up(bench)
-    assert "45° or at 405°" in complaint(bench)
-    with contextlib.suppress(HardwareError):
-        bench.follow(AZ, 200.0, 2.0)
-    assert bench.antenna(AZ) == pytest.approx(true_deg, abs=NEAR_DEG)
-    bench.drive.confirm(AZ, true_deg + 20.0)
-    bench.clock.sleep(0.5)
-    bench.follow(AZ, 200.0, 12.0)
-    assert bench.antenna(AZ) == pytest.approx(200.0, abs=NEAR_DEG)
-
-
 @every_row("true_deg", [-0.1, 0.0, 0.1, 359.9, 360.0])
 def test_at_the_seam_of_a_full_circle_a_push_of_the_wind_is_not_taken_for_a_turn(true_deg: float) -> None:
     bench = Bench(start_deg=(true_deg, 0.0), range_deg=(0.0, 360.0), **DIRECT)  # type: ignore[arg-type]
     powered_up(bench)
     assert "0° or at 360°" in complaint(bench) or "-0° or at 360°" in complaint(bench)
-
-
-@pytest.mark.long
-@WITHOUT_A_PERSON
-def test_a_program_that_starts_anew_finds_the_turn_where_it_left_it(encoder: dict[str, float]) -> None:
-    bench = Bench(start_deg=(100.0, 0.0), **encoder)  # type: ignore[arg-type]  # keywords of two types
-    powered_up(bench)
-    bench.follow(AZ, 405.0, 14.0)
-    bench.alive = False
-    bench.clock.sleep(3.0)
-    bench.start_program()
-    assert bench.drive.sensor(AZ).read() == pytest.approx(405.0, abs=NEAR_DEG)
-    bench.follow(AZ, 45.0, 16.0)
-    bench.alive = False
-    bench.clock.sleep(3.0)
-    bench.start_program()
-    assert bench.drive.sensor(AZ).read() == pytest.approx(45.0, abs=NEAR_DEG)
-    assert bench.antenna(AZ) == pytest.approx(45.0, abs=NEAR_DEG)
 
 
 @pytest.mark.long

@@ -287,9 +287,3 @@ def test_a_stop_that_fails_can_be_tried_again(bench: Bench, guard: Guard) -> Non
     bench.lines.broken = False
     guard.stop()
     assert not any(bench.gpio.level(pin) for pin in PINS.values())
-
-
-def test_stopping_the_guard_opens_everything(bench: Bench, guard: Guard) -> None:
-    bench.drive(0.5)
-    guard.stop()
-    assert not any(bench.gpio.level(pin) for pin in PINS.values())

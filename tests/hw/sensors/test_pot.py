@@ -81,12 +81,6 @@ def test_a_supply_that_comes_back_is_seen_at_the_next_reading(bench: Bench) -> N
     assert pot.read() == pytest.approx(0.25, abs=STEP)
 
 
-def test_a_converter_that_is_gone_is_said_by_the_bus(bench: Bench) -> None:
-    bench.wire.gone.add(0x48)
-    with pytest.raises(HardwareError, match="does not answer"):
-        bench.ratiometric().read()
-
-
 @pytest.mark.parametrize("look", range(1, 9))
 @pytest.mark.parametrize("bad_v", [0.0, 0.6, 1.5, 3.0, 3.6, 4.0])
 def test_one_bad_sample_of_the_supply_shifts_no_pot(bench: Bench, look: int, bad_v: float) -> None:

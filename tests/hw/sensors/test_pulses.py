@@ -15,11 +15,9 @@ from firmware_sim.parts.motor import MotorSpec
 from firmware_sim.rotors.relay_pulse import U100_MOTOR
 from hw.buses.gpio import GpioContact
 from hw.ports import Axis, Direction, HardwareError
-from hw.sensors.cam import Cam
 from hw.sensors.pulses import PulseCounter
 from tests.hw.sensors.pulse_rig import AZ, CAM, PATH, STANDS_S, PulseRig
 from tests.search import examples
-from tests.tables import every_row
 
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
 MOVES = examples(2500)
@@ -71,67 +69,7 @@ def test_it_knows_whether_its_contact_is_closed_and_that_the_next_change_is_ahea
     assert 2 < sum(seen) < 8, "a fifth of the cam is closed"
 
 
-# --- the same closure from both sides
-
-
-@pytest.mark.long
-@every_row("start_deg", [99.0 + step * 0.13 for step in range(40)])
-def test_back_and_forth_over_a_closure_is_never_off_by_one(start_deg: float) -> None:
-    rig = PulseRig(start_deg)
-    chance = random.Random(int(start_deg * 100))
-    for _ in range(10):
-        rig.move(PLUS, chance.uniform(0.05, 0.5))
-        rig.move(MINUS, chance.uniform(0.05, 0.5))
-        assert (rig.off_by, rig.counter.trouble) == (0, "")
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("spacing_deg", "closed_deg", "play_deg"), [(6.0, 3.0, 0.0), (10.0, 2.0, 0.0), (5.0, 1.0, 0.6), (5.0, 0.4, 0.2)]
-)
-def test_other_cams(spacing_deg: float, closed_deg: float, play_deg: float) -> None:
-    cam = Cam(spacing_deg, closed_deg, 2.5, 6.0, play_deg=play_deg, low_deg=0.0, high_deg=360.0)
-    rig = PulseRig(cam=cam)
-    chance = random.Random(5)
-    for move in range(60):
-        rig.move(PLUS if move % 2 else MINUS, chance.uniform(0.1, 4.0))
-        assert (rig.off_by, rig.counter.trouble) == (0, "")
-        assert rig.counter.read() == pytest.approx(rig.shaft_deg, abs=0.7)
-
-
-# --- what goes wrong
-
-
-@pytest.mark.parametrize(
-    "fault", ["azimuth-contact-stuck-open", "azimuth-contact-stuck-closed", "azimuth-motor-stalled"]
-)
-def test_no_pulse_for_three_periods_is_seen_while_it_is_driven(fault: str) -> None:
-    rig = PulseRig(100.0)
-    rig.rotor.inject(fault)
-    rig.drive(PLUS, 2.4)
-    assert not rig.counter.quiet
-    rig.drive(PLUS, 0.2)
-    assert rig.counter.quiet
-    rig.run(PLUS, 0.1)
-    rig.wait(STANDS_S)
-    assert rig.counter.trouble
-
-
-def test_a_welded_relay_is_turning_with_no_relay_on() -> None:
-    rig = PulseRig(100.0)
-    rig.move(PLUS, 2.0)
-    rig.rotor.inject("azimuth-relay-welded-cw")
-    rig.wait(5.0)
-    assert "no relay on" in rig.counter.trouble
-
-
 # --- placing
-
-
-def test_a_kept_count_that_the_contact_contradicts_is_not_believed() -> None:
-    rig = PulseRig(100.8)  # on a closure
-    assert not rig.counter.place(103.0)
-    assert rig.counter.trouble == "the contact is closed, which it is not at 103.0°"
 
 
 def test_a_debounce_that_would_swallow_closures_is_refused() -> None:

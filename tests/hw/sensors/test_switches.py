@@ -10,7 +10,7 @@ import pytest
 
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
-from hw.buses.gpio import GpioInputs, LinesBusyError
+from hw.buses.gpio import GpioInputs
 from hw.ports import Axis, Direction, HardwareError
 from hw.sensors.switches import LIMITS, LimitSwitches
 
@@ -45,14 +45,6 @@ def test_a_closed_switch_pulls_its_line_to_ground_and_an_open_one_leaves_it_to_t
     assert inputs.read() == {"stop": True, "calibrate": False}
     open_up(gpio, 16)
     assert inputs.read() == {"stop": False, "calibrate": False}
-
-
-def test_a_line_that_another_program_holds_is_named(gpio: SimGpio) -> None:
-    inputs = GpioInputs(gpio, PATH, PINS, consumer="test")
-    with pytest.raises(LinesBusyError, match="cannot take stop on GPIO16: a line is taken"):
-        GpioInputs(gpio, PATH, {"stop": 16}, consumer="other")
-    inputs.close()
-    GpioInputs(gpio, PATH, {"stop": 16}, consumer="other")
 
 
 class Dead:
