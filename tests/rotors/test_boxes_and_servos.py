@@ -12,7 +12,6 @@ from hw.ports import AngleSource, Axis, Direction, HardwareError
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.readings import Window
 from rotator.control.sky.offsets import Offsets
-from rotator.exchange.faults import FaultKind
 from rotator.rotors.boxes import UNFED, BoxRotor, FollowedBox
 from rotator.rotors.servos import ServoRotor
 from tests.rotors.journal import Journal
@@ -53,15 +52,6 @@ def test_a_box_that_turned_away_from_its_angle_is_a_fault_and_the_other_has_no_s
     box.cut()
     box.restore()
     assert drive.said == ["cut", "restore"]
-
-
-def test_a_fault_of_the_servo_board_names_the_axis(servos: ServoRotor, drive: Journal) -> None:
-    assert servos.condition(EL).fault is None
-    drive.wrong = {EL: "no pulses"}
-    fault = servos.condition(EL).fault
-    assert fault is not None
-    assert (fault.kind, fault.axis, fault.measured) == (FaultKind.SERVO_BOARD, EL, "no pulses")
-    assert servos.condition(AZ).fault is None
 
 
 def test_servos_are_let_go_when_the_box_ends_even_after_a_failure(servos: ServoRotor, drive: Journal) -> None:

@@ -113,18 +113,6 @@ def test_a_brake_that_does_not_release_is_a_fault_of_its_own_name(kind: Kind) ->
     assert box.axis(AZ).fault is None
 
 
-def test_an_axis_that_has_turned_and_then_stands_still_is_not_the_brakes_fault() -> None:
-    box = braked()
-    settled(box)
-    box.order(Aim(300.0, 30.0))
-    box.run(5.0)
-    box.world.inject("azimuth-motor-stalled")
-    box.until(lambda: box.axis(AZ).fault is not None, 10.0)
-    fault = box.axis(AZ).fault
-    assert fault is not None
-    assert fault.kind is FaultKind.STANDS_STILL
-
-
 def test_a_press_lasts_as_long_as_without_a_brake() -> None:
     turned = []
     for box in (braked(), Box(KINDS[0])):
@@ -133,21 +121,6 @@ def test_a_press_lasts_as_long_as_without_a_brake() -> None:
         box.run(6.0)
         turned.append(box.boom_deg(AZ))
     assert turned[0] == pytest.approx(turned[1], abs=0.5)
-
-
-def test_while_the_wind_turns_the_antenna_the_brake_waits() -> None:
-    box = braked()
-    settled(box)
-    box.order(Aim(120.0, 30.0))
-    box.until(lambda: box.world.drives()[0] == 1)
-    box.until(lambda: box.world.drives()[0] == 0)
-    box.world.inject("azimuth-wind-turns")
-    box.run(COASTS_S + ENGAGE_S + 3.0)
-    assert released(box)
-    box.world.clear("azimuth-wind-turns")
-    box.run(ENGAGE_S + 3.0)
-    assert not released(box)
-    assert box.world.brake_harm == (0.0, 0)
 
 
 # --- rock

@@ -177,24 +177,3 @@ def test_homed_from_anywhere_with_any_cam_it_stands_where_it_says(
         return
     assert box.status.faults == ()
     assert box.arrives(57.0, 33.0)
-
-
-# --- a relay that stays closed
-
-
-def welded(new_box: NewBox) -> Box:
-    """A box whose azimuth relay has welded in a jog, 5 s after the stop."""
-    box = new_box(U100)
-    box.run(1.0)
-    box.order(Jog(AZ, PLUS))
-    box.run(3.0)
-    box.world.inject("azimuth-relay-welded-cw")
-    box.order(Stop())
-    box.run(5.0)
-    return box
-
-
-def test_a_relay_that_welds_on_a_counting_rotor_is_shouted_and_cuts(new_box: NewBox) -> None:
-    box = welded(new_box)
-    assert box.status.cut
-    assert [fault.act_now for fault in box.status.faults] == ["CUT MOTOR POWER!"]

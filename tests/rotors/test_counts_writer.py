@@ -68,30 +68,6 @@ def test_a_motor_waits_until_the_file_says_that_it_moves(path: Path, disk: SlowD
     assert counts_writer.trouble(AZ, 0.0) == ""
 
 
-def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> None:
-    counts_writer = CountsWriter(known(path), disk)
-    counts_writer.may_start(AZ)
-    disk.work()
-    counts_writer.rests(AZ, 120.0)
-    assert not counts_writer.may_start(AZ), "the rest may be on its way to the disk"
-    disk.work()
-    assert counts_writer.may_start(AZ)
-    assert standing(path) is Standing.LOST
-
-
-def test_a_mark_that_a_rest_may_have_taken_back_lets_no_motor_start(path: Path, disk: SlowDisk) -> None:
-    counts_writer = CountsWriter(known(path), disk)
-    counts_writer.may_start(AZ)
-    counts_writer.rests(AZ, 120.0)
-    counts_writer.may_start(AZ)
-    first_mark, rest, second_mark = disk.jobs
-    first_mark()
-    assert not counts_writer.may_start(AZ), "the rest is still on its way to the disk"
-    rest()
-    second_mark()
-    assert counts_writer.may_start(AZ)
-
-
 def test_a_file_that_cannot_be_written_refuses_and_says_why(path: Path, disk: SlowDisk) -> None:
     counts_writer = CountsWriter(known(path), disk)
     path.unlink()

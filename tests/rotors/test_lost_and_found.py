@@ -75,16 +75,6 @@ def servo_world(box: Box) -> SimServoRotor:
     return box.world
 
 
-def test_no_pulse_reaches_a_servo_before_the_first_order(new_box: NewBox) -> None:
-    box = new_box(SERVOS, (120.0, 60.0))
-    box.run(10.0)
-    assert box.world.antenna() == (120.0, 60.0)
-    assert box.world.gpio.level(4), "OE is held off by its pull-up"
-    box.order(Aim(None, 90.0))
-    box.run(1.0)
-    assert not box.world.gpio.level(4)
-
-
 def test_let_go_they_are_limp_until_a_person_says_so(new_box: NewBox) -> None:
     box = new_box(SERVOS)
     box.run(1.0)
@@ -149,22 +139,6 @@ def knows(start_deg: tuple[float, float]) -> dict[str, object]:
         "azimuth": {"select": 8, "steps": [[0, 0], [360, 256]], "start_deg": azimuth_deg},
         "elevation": {"select": 7, "steps": [[0, 0], [90, 64]], "start_deg": elevation_deg},
     }
-
-
-def test_a_chip_that_dips_turns_the_rotor_for_a_second_at_most(new_box: NewBox) -> None:
-    box = new_box(ORBIT360)
-    box.run(1.0)
-    assert box.arrives(60.0, 40.0)
-    stood_deg = box.shaft_deg(AZ)
-    most_deg = 0.0
-    box.run(0.31)
-    box.world.inject("azimuth-chip-dips")
-    for _ in range(60):
-        box.run(box.period_s)
-        most_deg = max(most_deg, abs(box.shaft_deg(AZ) - stood_deg))
-    assert 1.0 < most_deg < 8.0, "towards the middle, till its step is said again"
-    box.until_it_stands()
-    assert box.shaft_deg(AZ) == pytest.approx(60.0, abs=box.kind.within_deg)
 
 
 def test_a_chip_that_dipped_while_the_rotor_turned_the_other_way_costs_no_more(new_box: NewBox) -> None:

@@ -19,7 +19,6 @@ from rotator.control.axis.readings import Condition
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.exchange.faults import FaultKind
-from rotator.exchange.orders import LetGo
 from rotator.rotors import moteus as rotors_moteus
 from rotator.rotors.moteus import MoteusRotor
 from tests.interleaved import interleaved
@@ -80,12 +79,3 @@ def test_a_controller_that_never_answered_is_silent_until_it_does() -> None:
     fault = rotor.condition(AZ).fault
     assert fault is not None
     assert (fault.kind, fault.axis, fault.passing) == (FaultKind.CONTROLLER_SILENT, AZ, True)
-
-
-def test_only_let_go_takes_the_torque_away() -> None:
-    bench = Bench()
-    bench.steer(AZ, 110.0, 1.0)
-    bench.rotor.run(LetGo())
-    bench.clock.sleep(1.0)
-    assert bench.drive.at_rest
-    assert {bench.world.controller(axis.value).motor.mode.name for axis in Axis} == {"STOPPED"}

@@ -12,7 +12,6 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.config.load import shipped
 from rotator.config.mistake import ConfigError
 from rotator.exchange.orders import Aim, Calibrate, Confirm, Home, Jog, Nudge, Order, Park, RelaysChecked, Release, Stop
 from rotator.protocols.rotctld_caps import dump_caps, dump_state
@@ -144,8 +143,3 @@ def test_a_tilted_boom_is_an_offset() -> None:
 def test_one_axis_must_be_there() -> None:
     with pytest.raises(ConfigError, match="neither axis is fitted"):
         configured("g5500", azimuth={"fitted": False}, elevation={"fitted": False})
-
-
-def test_the_shipped_file_of_an_azimuth_rotor_asks_for_its_calibration_alone() -> None:
-    text = shipped("g450")
-    assert "fitted = false" in text

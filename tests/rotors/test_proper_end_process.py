@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import select
@@ -16,15 +15,13 @@ from pathlib import Path
 import pytest
 import tomlkit
 
-from hw.ports import AngleSource, Axis
+from hw.ports import AngleSource
 from rotator.config.load import parse
 from rotator.config.model import Config
-from rotator.store.counts import FILE_NAME, CountsFile, Standing
 from tests.rotors.rig import KINDS, Kind, configured
 
 PATIENCE_S = 60.0
 LOOK_S = 0.02
-TARGET_DEG = 180.0
 
 
 class Box:
@@ -134,28 +131,3 @@ def test_terminated_in_mid_move_every_kind_ends_well(kind: Kind, tmp_path: Path,
     box.wait_until_there(tmp_path / "gs232")
     box.turn()
     box.terminate()
-
-
-def test_what_motors_taught_and_contacts_counted_is_kept(tmp_path: Path, boxes: list[Box]) -> None:
-    (kind,) = (kind for kind in KINDS if kind.profile == "u100")
-    path, config = written(kind, tmp_path, world=str(tmp_path / "world.json"))
-    counts = tmp_path / FILE_NAME
-    cams = {axis: getattr(config.pulses, axis.value).model_dump(exclude={"contact"}) for axis in Axis}
-    file = CountsFile(counts, cams)
-    file.home(Axis.AZIMUTH, 90.0)
-    file.home(Axis.ELEVATION, 0.0)
-    boxes.append(box := Box(tmp_path, "-m", "rotator", "run", "--config", path))
-    box.wait_until_there(tmp_path / "gs232")
-    box.wait_until_azimuth(90, 90)
-    box.order(b"M%03d\r" % TARGET_DEG)
-    box.wait_until_azimuth(TARGET_DEG - 8, TARGET_DEG + 8)
-    give_up_s = time.monotonic() + PATIENCE_S
-    while CountsFile(counts, cams).load()[Axis.AZIMUTH].standing is not Standing.KNOWN:
-        assert time.monotonic() < give_up_s, box.log
-        select.select([], [], [], LOOK_S)
-    box.terminate()
-    place = CountsFile(counts, cams).load()[Axis.AZIMUTH]
-    assert place.standing is Standing.KNOWN
-    assert place.angle_deg == pytest.approx(TARGET_DEG, abs=8.0)
-    learnt = json.loads((tmp_path / "state.json").read_text())["learnt"]["axes"]["azimuth"]["plus"]
-    assert learnt["speed_dps"] != 25.0

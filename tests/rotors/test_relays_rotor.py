@@ -31,17 +31,6 @@ class Bench:
         return {name for name, pin in PINS.items() if self.gpio.level(pin)}
 
 
-def test_the_supply_is_cut_until_it_is_restored() -> None:
-    bench = Bench()
-    bench.run(AZ, PLUS)
-    assert bench.rotor.cut()
-    assert bench.on() == set()
-    assert bench.run(AZ, PLUS) is OFF
-    bench.rotor.restore()
-    assert bench.run(AZ, PLUS) is PLUS
-    assert bench.on() == {"azimuth_cw", "master"}
-
-
 def test_the_supply_is_on_for_a_look_and_off_when_it_shall_turn_nothing() -> None:
     bench = Bench()
     assert not bench.rotor.condition(EL).supplied

@@ -42,13 +42,6 @@ def test_it_goes_over_the_chimney(beside: Box) -> None:
     assert beside.boom_deg(EL) == pytest.approx(30, abs=5)
 
 
-def test_a_target_in_the_chimney_is_met_beside_it_and_said(beside: Box) -> None:
-    beside.order(Aim(125.0, 30.0, place=True))
-    run(beside, 60.0)
-    assert 100 < beside.boom_deg(AZ) < 120
-    assert "the target is in or behind the chimney" in str(beside.axis(AZ).notices)
-
-
 def test_a_jog_ends_before_it(beside: Box) -> None:
     beside.order(Jog(AZ, Direction.PLUS))
     run(beside, 60.0)

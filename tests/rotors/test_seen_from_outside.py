@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Jog, LetGo, Stop
-from rotator.protocols.gs232 import Dialect
-from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
 from tests.rotors.rig import AZ, EL, PERSON, Box
 
@@ -22,28 +18,6 @@ def near(box: Box, axis: Axis, angle_deg: float) -> bool:
 
 
 # --- programs
-
-
-def test_a_gs232_program_points_reads_turns_and_stops(box: Box) -> None:
-    session = Gs232Session(box.client(), Dialect.B)
-    assert session.receive(b"W130 050\r") == []
-    box.until_it_stands()
-    answer = session.receive(b"C2\r")[0].decode("ascii")
-    said = re.fullmatch(r"AZ=(\d{3})  EL=(\d{3})\r\n", answer)
-    assert said, answer
-    assert near(box, AZ, float(said[1]))
-    assert near(box, EL, float(said[2]))
-    assert near(box, AZ, 130.0)
-    assert near(box, EL, 50.0)
-
-    session.receive(b"L\r")
-    box.run(1.0)
-    session.receive(b"S\r")
-    box.until_it_stands()
-    assert box.boom_deg(AZ) < 130.0 - 1.0
-    stood_deg = box.boom_deg(AZ)
-    box.run(5.0)
-    assert box.boom_deg(AZ) == pytest.approx(stood_deg, abs=max(0.01, box.kind.trembles_deg))
 
 
 def test_a_rotctld_program_points_reads_stops_and_parks(box: Box) -> None:

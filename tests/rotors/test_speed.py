@@ -73,15 +73,6 @@ def test_it_slows_down_before_a_limit_and_ends_there(box: Box) -> None:
     assert box.axis(AZ).fault is None
 
 
-@pytest.mark.parametrize(("level", "dps"), [(1, 2.0), (2, 10 / 3), (3, 14 / 3), (4, 6.0)])
-def test_x1_to_x4_are_the_highest_speed(box: Box, level: int, dps: float) -> None:
-    box.order(Speed(level), Aim(300.0, 30.0))
-    box.run(4.0)
-    # The simulated motor is a little faster than a straight line between lowest and full.
-    assert speeds_dps(box, 2.0)[-1] == pytest.approx(dps, abs=0.5)
-    assert box.axis(AZ).fault is None
-
-
 def test_after_a_stop_its_input_is_at_the_lowest_again(box: Box) -> None:
     box.order(Aim(300.0, 30.0))
     box.run(5.0)
@@ -99,20 +90,6 @@ def test_a_program_that_hangs_leaves_it_at_the_lowest_as_soon_as_it_is_back(box:
     box.run(0.1)
     box.close()
     assert throttle(box) == pytest.approx(LOWEST_DPS / FULL_DPS)
-
-
-def test_an_output_that_does_not_answer_is_a_fault_of_its_own_name_until_it_does(box: Box) -> None:
-    box.order(Aim(300.0, 30.0))
-    box.run(5.0)
-    box.world.inject("azimuth-dac-gone")
-    box.until(lambda: box.world.drives()[0] == 0, 1.0)
-    fault = box.axis(AZ).fault
-    assert fault is not None
-    assert fault.kind is FaultKind.SPEED_OUTPUT
-    assert "0x60" in fault.measured
-    box.world.clear("azimuth-dac-gone")
-    box.run(1.5)
-    assert box.arrives(300.0, 30.0)
 
 
 def test_a_motor_that_stands_is_seen_at_the_lowest_speed_too(box: Box) -> None:
