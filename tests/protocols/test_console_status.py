@@ -124,12 +124,6 @@ def test_a_later_stop_by_another_command_is_told_too(box: BenchBox) -> None:
     assert session.receive(b"park\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
 
 
-def test_a_later_stop_is_told_again(box: BenchBox) -> None:
-    session = ConsoleSession(AtTheBox(box))
-    assert session.receive(b"stop\nresume\npoint 300 25\nstop\n") == [b"ok\n"] * 4
-    assert session.receive(b"point 300 25\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
-
-
 def test_a_storm_park_holds_like_a_stop(box: BenchBox) -> None:
     session = ConsoleSession(AtTheBox(box))
     assert session.receive(b"park\n") == [b"ok\n"]

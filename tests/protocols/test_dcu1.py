@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Stop
 from rotator.protocols.dcu1 import VERBS, Dcu1Session, azimuth_reply, tenths_reply
 from rotator.protocols.session import Session
@@ -119,10 +118,3 @@ def test_a_semicolon_that_comes_later_is_a_stop(box: BenchBox) -> None:
 def test_positions(azimuth_deg: float, whole: bytes, tenths: bytes) -> None:
     assert azimuth_reply(azimuth_deg) == whole
     assert tenths_reply(azimuth_deg) == tenths
-
-
-def test_refusals_and_a_position_that_is_not_known_are_silence(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=(Missing.CALIBRATION,))
-    assert Dcu1Session(box).receive(b"AP1123;AM1;") == []
-    assert box.motions == []
-    assert Dcu1Session(new_box(blind=True)).receive(b"AI1;BI1;") == []

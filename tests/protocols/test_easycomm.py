@@ -88,10 +88,6 @@ def test_letters_within_a_word_are_no_angle(line: bytes) -> None:
     assert parse(line, Level.III) == ()
 
 
-def test_a_satellites_name_changes_no_pair() -> None:
-    assert parse(b"AZ235.5 EL25.0 HAZEL5", Level.II) == (Word("AZ", 235.5), Word("EL", 25.0))
-
-
 @every_row("line", [b"UP145AZ5.5", b"AZ5.5DN435", b"VR5AZ5.5", b"#AZ5.5", b"AZ5.5UP1 MR", b"AZ5.5\x00"])
 def test_a_single_angle_that_is_joined_to_something_moves_nothing(line: bytes) -> None:
     assert parse(line, Level.III) == ()

@@ -9,7 +9,6 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator import __version__
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Order, Park, Stop
 from rotator.protocols.easycomm import VERBS, Level
 from rotator.protocols.easycomm_session import EasycommSession
@@ -145,14 +144,6 @@ def test_look4sats_bytes_over_bluetooth(box: BenchBox, end: bytes) -> None:
     assert len(box.orders) == 3
 
 
-def test_silence_does_not_make_an_order_of_a_long_lines_tail(box: BenchBox) -> None:
-    session = EasycommSession(box, Level.II)
-    session.receive(b"x" * 300)
-    session.receive(b"AZ123.4 EL39.0")
-    session.idle()
-    assert box.orders == []
-
-
 def test_state_and_faults(new_box: type[BenchBox]) -> None:
     box = new_box(at=(235, 25))
     session = EasycommSession(box, Level.III)
@@ -171,19 +162,3 @@ def test_a_pot_that_is_out_is_a_sensor_fault(new_box: type[BenchBox]) -> None:
     box = new_box(blind=True)
     box.wait(2)
     assert EasycommSession(box, Level.III).receive(b"GE\n") == [b"GE1\n"]
-
-
-def test_a_refused_order_is_not_answered_lest_the_next_question_is_taken_for_answered(
-    new_box: type[BenchBox],
-) -> None:
-    box = new_box(missing=(Missing.CALIBRATION,))
-    session = EasycommSession(box, Level.III)
-    assert session.receive(b"AZ10 EL20\nPARK\n") == []
-    assert box.orders == []
-    assert session.receive(b"GE\n") == [b"GE4\n"]
-
-
-def test_a_position_that_is_not_known_is_an_alarm(new_box: type[BenchBox]) -> None:
-    box = new_box(blind=True)
-    assert EasycommSession(box, Level.II).receive(b"AZ EL\nAZ\nEL\n") == [b"ALposition not known\n"] * 3
-    assert EasycommSession(box, Level.I).receive(b"AZ EL\n") == []

@@ -6,15 +6,12 @@ command ignored; no replies; both motors stopped at zero or negative elevation.
 
 from __future__ import annotations
 
-import tracemalloc
 from collections.abc import Callable
-from itertools import cycle
 from typing import TYPE_CHECKING
 
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.session import Session
@@ -89,12 +86,6 @@ def test_ignores_everything_else(box: BenchBox, session: F1efwSession, feed: Fee
     assert box.turned == set()
 
 
-def test_all_at_once_amid_rubbish(box: BenchBox, session: F1efwSession, feed: Feed) -> None:
-    sent = b"".join(noise + order for noise, (order, _) in zip(cycle(IGNORED), HEARD, strict=False))
-    assert feed(session, sent) == []
-    assert box.orders == [Aim(*aim) for _, aims in HEARD for aim in aims]
-
-
 @pytest.mark.parametrize("cut", range(1, 17))
 def test_an_order_may_cross_a_packets_border_anywhere(box: BenchBox, session: F1efwSession, cut: int) -> None:
     longest = b"W235        -025"
@@ -137,25 +128,3 @@ def test_at_zero_or_negative_elevation_both_motors_stop(box: BenchBox, session: 
     box.wait(60)
     assert box.driven == AT_REST
     assert box.status().wanted_azimuth_deg == 100, "shown all the same"
-
-
-def test_one_degree_above_the_horizon_it_turns_again(box: BenchBox, session: F1efwSession) -> None:
-    session.receive(b"W100 000\rW100 001\r")
-    assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.MINUS}
-
-
-def test_an_uncommissioned_box_ignores_it_without_a_word(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=(Missing.CALIBRATION,))
-    assert F1efwSession(box).receive(b"W235 025\r") == []
-    assert box.turned == set()
-
-
-@pytest.mark.parametrize("junk", [b"Z", b"W", b"W1", b"W235 ", b"W235  ", b" ", b"\xff"])
-def test_memory_is_bounded(session: F1efwSession, junk: bytes) -> None:
-    session.receive(junk * 1000)
-    tracemalloc.start()
-    for _ in range(10):
-        session.receive(junk * 1000)
-    kept, _ = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert kept < 4096

@@ -195,11 +195,6 @@ def test_an_m_or_w_that_is_no_order(line: bytes) -> None:
         parse(line, Dialect.B)
 
 
-@given(st.binary(max_size=12).filter(lambda rest: not set(rest) & set(b"0123456789\r\n")), st.sampled_from(b"Ss"))
-def test_no_damage_but_a_digit_makes_a_stop_something_else(rest: bytes, letter: int) -> None:
-    assert parse(bytes([letter]) + rest, Dialect.B) == Command("S")
-
-
 @every_row("at", range(1, 8))
 def test_a_damaged_byte_never_makes_another_order(at: int) -> None:
     """But for a digit that turns into a blank, a point or a comma: that is how others write other angles."""
@@ -256,11 +251,6 @@ def test_position_replies(azimuth_deg: float, elevation_deg: float, a: bytes, b:
     assert gs232.elevation_reply(Dialect.B, elevation_deg) == b[8:]
 
 
-def test_point_numbers_have_four_digits() -> None:
-    assert gs232.count_reply(1, 3) == b"+0001+0003\r\n"
-    assert gs232.count_reply(1900, 3800) == b"+1900+3800\r\n"
-
-
 MANUAL_LISTS = {
     (Dialect.A, 1): [*"RLACMTN", "X1", "X2", "X3", "X4", *"SOF"],
     (Dialect.B, 1): [*"RLACMTNSOF", "X1", "X2", "X3", "X4"],
@@ -285,10 +275,3 @@ def test_the_help_lists_have_the_manuals_titles_commands_and_order(
     assert [row.split()[0] for row in rows[: len(commands)]] == commands
     if number < 3:
         assert len(rows) == len(commands) + 1
-
-
-@pytest.mark.parametrize(("top_deg", "north", "modes"), [(450, False, b"450 S"), (360, True, b"360 N")])
-def test_h3_shows_the_modes(top_deg: int, north: bool, modes: bytes) -> None:
-    screen = gs232.help_reply(3, Dialect.B, top_deg, north=north)
-    top, centre = modes.split()
-    assert screen.endswith(b"\r\n---------- MODE ----------\r\nmode %b Degree\r\n%b Center\r\n" % (top, centre))

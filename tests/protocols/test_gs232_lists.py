@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import Aim, LoadTimed
+from rotator.exchange.orders import LoadTimed
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 
@@ -63,25 +63,6 @@ def test_t_sent_twice_skips_no_point(box: BenchBox, session: Gs232Session) -> No
     assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
 
 
-def test_intervals_are_exact_to_a_tenth_of_a_second_and_do_not_drift(box: BenchBox, session: Gs232Session) -> None:
-    session.receive(b"M003" + b"".join(b" %03d" % (10 * n) for n in range(41)) + b"\rT\r")
-    started_s = box.now_s
-    reached: dict[int, float] = {}
-    while box.status().timed_point < 41 and box.now_s < started_s + 130:
-        box.wait(0.05)
-        reached.setdefault(box.status().timed_point, box.now_s - started_s)
-    assert set(reached) == set(range(2, 42))
-    assert all(at_s == pytest.approx((point - 2) * 3, abs=0.1) for point, at_s in reached.items())
-
-
-def test_an_azimuth_list_leaves_the_elevation_alone(box: BenchBox, session: Gs232Session) -> None:
-    session.receive(b"W235 060\r")
-    session.receive(b"M001 100 120\rT\r")
-    box.wait(1.5)
-    assert wanted(box) == (120, 60)
-    assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.PLUS}
-
-
 @pytest.mark.parametrize("stop", [b"S\r", b"A\r", b"E\r"])
 def test_a_stop_ends_the_run_and_t_goes_on_from_there(box: BenchBox, session: Gs232Session, stop: bytes) -> None:
     session.receive(b"W005 100 020 120 030 140 040\rT\r")
@@ -92,14 +73,6 @@ def test_a_stop_ends_the_run_and_t_goes_on_from_there(box: BenchBox, session: Gs
     session.receive(b"T\r")
     assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
     assert wanted(box) == (140, 40)
-
-
-@pytest.mark.parametrize("order", [b"W200 010\r", b"R\r"])
-def test_another_order_ends_the_run(box: BenchBox, session: Gs232Session, order: bytes) -> None:
-    session.receive(b"W005 100 020 120 030\rT\r" + order)
-    before = wanted(box)
-    box.wait(20)
-    assert wanted(box) == before
 
 
 CLEARING = {
@@ -142,12 +115,6 @@ def test_a_new_list_in_the_same_packet_as_n(new_box: type[BenchBox]) -> None:
     assert session.receive(b"M005 010 020\rN\r") == [b"+0001+0002\r\n"]
 
 
-@pytest.mark.parametrize("line", [b"M000 010 020", b"W005 010 020 030", b"M005 451 1", b"W005 010 181", b"M005 10"])
-def test_a_damaged_list_is_no_list(box: BenchBox, session: Gs232Session, line: bytes) -> None:
-    assert session.receive(line + b"\rN\rT\r") == [WRONG] * 3
-    assert box.motions == []
-
-
 @pytest.mark.parametrize("line", [b"S1", b"X9", b"hello", b"R", b"C2", b"P36"])
 def test_other_lines_keep_the_list(session: Gs232Session, line: bytes) -> None:
     session.receive(b"W005 100 020 120 030\r" + line + b"\r")
@@ -161,11 +128,3 @@ def test_a_list_that_another_link_clears_does_not_run_on(box: BenchBox, session:
     box.wait(20)
     assert wanted(box)[0] == 120
     assert box.status().timed_points == 0
-
-
-def test_the_antenna_goes_to_the_first_point_as_to_any_other(new_box: type[BenchBox]) -> None:
-    listed, single = new_box(), new_box()
-    Gs232Session(listed, Dialect.A).receive(b"W005 400 020 120 030\r")
-    Gs232Session(single, Dialect.A).receive(b"W400 020\r")
-    assert single.orders == [Aim(400, 20)]
-    assert listed.status().azimuth.target_deg == single.status().azimuth.target_deg == 400

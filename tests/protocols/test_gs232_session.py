@@ -12,9 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Calibrate, Jog, Order, Speed, Stop
-from rotator.exchange.sources import Source
 from rotator.protocols.gs232 import MAX_LINE, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
@@ -94,21 +92,6 @@ def test_each_command(new_box: type[BenchBox], feed: Feed, end: bytes) -> None:
         assert box.orders == orders, line
 
 
-@pytest.mark.parametrize("end", ENDS)
-def test_all_commands_in_one_packet(box: BenchBox, session: Gs232Session, feed: Feed, end: bytes) -> None:
-    assert feed(session, b"".join(row.line + end for row in ROWS)) == [r for row in ROWS for r in row.replies]
-    assert box.orders == [order for row in ROWS for order in row.orders]
-
-
-def test_noise_before_and_after(new_box: type[BenchBox], feed: Feed) -> None:
-    """A port being plugged in; then another program's banner; afterwards a command that was cut off."""
-    for line, replies, orders in ROWS:
-        box = new_box(at=(235, 25))
-        sent = b"\0\xff\x80\xfe" + line + b"\rREADY\r" + line + b"\rW10"
-        assert feed(Gs232Session(box, Dialect.B), sent) == [*replies, WRONG, *replies], line
-        assert box.orders == orders * 2, line
-
-
 def test_a_line_too_long_is_one_mistake_and_the_next_is_good(box: BenchBox, session: Gs232Session, feed: Feed) -> None:
     too_long = b"W100 045" + b" " * MAX_LINE
     assert feed(session, too_long + b"\rC2\r") == [WRONG, b"AZ=235  EL=025\r\n"]
@@ -126,23 +109,6 @@ def test_with_the_option_a_carriage_return_acknowledges(box: BenchBox, feed: Fee
     session = Gs232Session(box, Dialect.B, ack=b"\r")
     assert feed(session, b"W100 045\rR\rA\rX2\rM100\rM005 010 020\rT\rS\r") == [b"\r"] * 8
     assert feed(session, b"C2\r\rW\r") == [b"AZ=235  EL=025\r\n", WRONG]
-
-
-def test_orders_turn_the_motors_at_once_and_s_stops_them(box: BenchBox, session: Gs232Session) -> None:
-    session.receive(b"W300 010\r")
-    assert box.driven == {AZIMUTH: Direction.PLUS, ELEVATION: Direction.MINUS}
-    session.receive(b"A\r")
-    assert box.driven == {AZIMUTH: Direction.OFF, ELEVATION: Direction.MINUS}
-    session.receive(b"R\r")
-    assert box.driven == {AZIMUTH: Direction.PLUS, ELEVATION: Direction.MINUS}
-    session.receive(b"S\r")
-    assert box.driven == {AZIMUTH: Direction.OFF, ELEVATION: Direction.OFF}
-
-
-def test_m_leaves_the_elevation_alone(box: BenchBox, session: Gs232Session) -> None:
-    session.receive(b"U\r")
-    session.receive(b"M100\r")
-    assert box.driven == {AZIMUTH: Direction.MINUS, ELEVATION: Direction.PLUS}
 
 
 @pytest.mark.parametrize(
@@ -189,12 +155,6 @@ def test_the_rotors_travel_chooses_the_mode(
     assert session.receive(b"Z\r") == [centre]
 
 
-def test_azimuths_below_zero_are_shown_on_the_compass(new_box: type[BenchBox]) -> None:
-    box = new_box((-180, 180))
-    box.stands_at(-90, 10)
-    assert Gs232Session(box, Dialect.A).receive(b"C2\r") == [b"+0270+0010\r\n"]
-
-
 def test_calibration_where_allowed(box: BenchBox) -> None:
     session = Gs232Session(box, Dialect.B, may_calibrate=True)
     box.stands_at(3, 178)
@@ -212,29 +172,3 @@ def test_no_calibration_while_moving_and_it_blocks_nothing(box: BenchBox, comman
     assert session.receive(command + b"\r") == [WRONG], "it still coasts"
     box.wait(1.5)
     assert session.receive(command + b"\rC2\r")[0].startswith(b"AZ=")
-
-
-def test_help_comes_in_one_piece_of_whole_lines(session: Gs232Session, feed: Feed) -> None:
-    replies = feed(session, b"H\rh2\rH3\r")
-    assert len(replies) == 3
-    assert all(reply.replace(b"\r\n", b"").isascii() and reply.endswith(b"\r\n") for reply in replies)
-    assert not any(end in reply.replace(b"\r\n", b"") for reply in replies for end in (b"\r", b"\n", b">"))
-
-
-def test_an_axis_that_is_not_set_up_obeys_only_jog(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=(Missing.CALIBRATION,))
-    session = Gs232Session(box, Dialect.B)
-    assert session.receive(b"W100 045\rM100\rM005 010 020\rT\r") == [WRONG] * 4
-    assert box.turned == set()
-    assert session.receive(b"R\r") == []
-    assert box.turned == {AZIMUTH}
-    box.wait(2.5)
-    assert box.driven[AZIMUTH] is Direction.OFF
-
-
-def test_after_a_stop_at_the_box_a_link_is_answered_but_moves_nothing(box: BenchBox, session: Gs232Session) -> None:
-    box.order(Stop(latch=True), Source("console"))
-    assert session.receive(b"W100 045\rR\rC2\r") == [b"AZ=235  EL=025\r\n"]
-    box.wait(20)
-    session.receive(b"W100 045\r")
-    assert box.turned == set()

@@ -131,12 +131,6 @@ def test_z_changes_the_centre_in_360_degrees_only(strict: Gs232Session) -> None:
     assert modes() == [b"mode 360 Degree", b"S Center"]
 
 
-def test_z_moves_no_angle(box: BenchBox, strict: Gs232Session) -> None:
-    assert strict.receive(b"P36\rZ\rC2\r")[-1] == b"AZ=235  EL=025\r\n"
-    strict.receive(b"W100 020\r")
-    assert box.orders == [Aim(100, 20)]
-
-
 class Cosmos:
     """HSFL COSMOS's gs232b_lib: how it reads and what makes it give up, on a port without delay."""
 
@@ -176,12 +170,6 @@ def test_cosmos_connects_points_asks_and_stops_where_an_empty_line_is_a_mistake(
     assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.MINUS}
     assert cosmos.send(b"S\r")
     assert set(box.driven.values()) == {Direction.OFF}
-
-
-def test_cosmos_never_says_a_word_to_a_link_as_shipped(box: BenchBox) -> None:
-    cosmos = Cosmos(Gs232Session(box, Dialect.B))
-    assert not cosmos.connect()
-    assert not cosmos.send(b"S\r")
 
 
 def test_a_cr_after_commands_costs_cosmos_the_next_one(box: BenchBox) -> None:

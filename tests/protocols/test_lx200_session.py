@@ -157,10 +157,6 @@ def test_sync_changes_nothing_and_is_told(box: BenchBox) -> None:
     assert len(remarks) == 1
 
 
-def test_an_unknown_position_has_no_answer(new_box: type[BenchBox]) -> None:
-    assert Lx200Session(new_box(blind=True), SKY).receive(b":GR#:GD#:GA#:GZ#") == []
-
-
 def test_over_the_top_it_is_the_direction(box: BenchBox) -> None:
     box.stands_at(20, 150)
     assert Lx200Session(box, SKY).receive(b":GZ#:GA#") == [b"200\xdf00#", b"+30\xdf00#"]

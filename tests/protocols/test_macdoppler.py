@@ -46,8 +46,3 @@ def test_each_datagram(new_box: type[BenchBox], sent: bytes, orders: list[Order]
     box = new_box(at=(235, 25))
     assert MacDopplerSession(box).receive(sent) == []
     assert box.orders == orders
-
-
-def test_below_the_horizon_azimuth_follows_and_elevation_rests(box: BenchBox) -> None:
-    MacDopplerSession(box).receive(b"[AzEl Rotor Report:Azimuth:300.00, Elevation:-12.50, SatName:SO-50]")
-    assert (box.status().azimuth.target_deg, box.status().elevation.target_deg) == (300, 0)

@@ -86,12 +86,6 @@ def test_a_stop_without_a_name_is_ours_and_one_for_another_rotor_is_not(box: Ben
     assert box.orders == [Stop()]
 
 
-def test_elevation_stays_as_it_is(box: BenchBox) -> None:
-    N1mmSession(box).receive(GO.replace(b"55.0", b"100.0"))
-    box.wait(0.5)
-    assert list(box.driven.values()) == [-1, 0]
-
-
 def test_an_offset_is_not_added_and_remarked(box: BenchBox) -> None:
     remarks: list[str] = []
     N1mmSession(box, None, remarks.append).receive(GO.replace(b"<offset>0.0", b"<offset>90.0"))
@@ -135,7 +129,3 @@ def test_north_is_no_jump(new_box: type[BenchBox]) -> None:
     assert report.due(0)
     box.stands_at(360.3, 0)
     assert report.due(1) is None
-
-
-def test_while_the_position_is_not_known_nothing_is_said(new_box: type[BenchBox]) -> None:
-    assert N1mmReport(new_box(blind=True), "G-5500").due(0) is None

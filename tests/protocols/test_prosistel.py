@@ -62,10 +62,6 @@ def test_it_says_that_it_turns(box: BenchBox) -> None:
     assert session.receive(b"\x02A?\r\x02E?\r") == [b"\x02A,?,235,B\r", b"\x02E,?,025,R\r"]
 
 
-def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
-    assert ProsistelSession(new_box(blind=True), Model.COMBI_TRACK).receive(b"\x02B?\r") == [b"\x02B,?,E,00003\r"]
-
-
 @every_row(
     "said",
     [b"AG75\r", b"\x02AG7x\r", b"\x02A G75\r", b"\x02AG-5\r", b"\x02AG\r", b"\x02ag75\r", b"\x02AG75", b"\x02AG75\n",

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Park, Stop
 from rotator.orbits.earth import Site
 from rotator.protocols.pstrotator import TAGS, PstRotatorSession
@@ -121,21 +120,6 @@ def test_what_programs_send(box: BenchBox, program: str) -> None:
         assert box.orders == orders
 
 
-def test_half_a_datagram_is_not_waited_for(box: BenchBox) -> None:
-    session = PstRotatorSession(box)
-    session.receive(b"<PST><AZIMUTH>85")
-    session.receive(b"</AZIMUTH></PST>")
-    assert box.orders == []
-
-
-def test_elevation_alone_keeps_azimuth_going(box: BenchBox) -> None:
-    session = PstRotatorSession(box)
-    session.receive(b"<PST><AZIMUTH>300</AZIMUTH></PST>")
-    session.receive(b"<PST><ELEVATION>80</ELEVATION></PST>")
-    box.wait(0.5)
-    assert list(box.driven.values()) == [1, 1]
-
-
 @pytest.mark.parametrize(
     ("azimuth_deg", "elevation_deg", "said"),
     [
@@ -154,16 +138,6 @@ def test_targets(box: BenchBox) -> None:
     assert session.receive(b"<PST>TGA?TGE?</PST>") == [b"TGA:235\r", b"TGE:25\r"], "none yet: where it stands"
     session.receive(b"<PST><AZIMUTH>5</AZIMUTH><ELEVATION>8.6</ELEVATION></PST>")
     assert session.receive(b"<PST>TGA?TGE?</PST>") == [b"TGA:005\r", b"TGE:09\r"]
-
-
-def test_while_the_position_is_not_known_there_is_no_answer(new_box: type[BenchBox]) -> None:
-    assert PstRotatorSession(new_box(blind=True)).receive(b"<PST>AZ?EL?TGA?TGE?</PST>") == []
-
-
-def test_what_is_refused_moves_nothing_in_silence(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=(Missing.CALIBRATION,))
-    assert PstRotatorSession(box).receive(b"<PST><AZIMUTH>85</AZIMUTH><PARK>1</PARK></PST>") == []
-    assert box.motions == []
 
 
 def test_what_it_does_not_know_is_remarked(box: BenchBox) -> None:

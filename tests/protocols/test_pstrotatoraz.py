@@ -133,12 +133,6 @@ def test_damaged_requests_turn_nothing(new_box: type[BenchBox], said: bytes) -> 
     assert box.orders == []
 
 
-def test_half_a_request_waits(box: BenchBox) -> None:
-    session = PstRotatorAzSession(box)
-    assert session.receive(NODE_FETCH[:-1]) == []
-    assert box.orders == []
-
-
 def test_an_unknown_position_has_no_number(new_box: type[BenchBox]) -> None:
     answer = get(new_box(blind=True), f"GET {PAGE} HTTP/1.1", "Host: pi")
     assert b"Bearing = unknown" in answer

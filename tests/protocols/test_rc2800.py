@@ -17,14 +17,6 @@ Feed = Callable[[Session, bytes], list[bytes]]
 HERE_A, HERE_E = b"A P= 235.0 S=9 S\r", b"E P=  25.0 S=9 S\r"
 
 
-def read_by_hamlib(reply: bytes) -> tuple[str, float]:
-    """As rc2800_parse does: the value from the sixth character on."""
-    text = reply.decode().removesuffix("\r")
-    assert len(text) > 7
-    assert text[1:4] == " P="
-    return text[0], float(text[5:].split()[0])
-
-
 @every_row(
     ("said", "answers", "orders"),
     [
@@ -44,15 +36,6 @@ def test_dialogues(new_box: type[BenchBox], feed: Feed, said: bytes, answers: li
     replies = feed(Rc2800Session(box), said)
     assert [reply.replace(b"=9 M", b"=9 S") for reply in replies] == answers
     assert box.orders == orders
-
-
-def test_hamlib_reads_the_answers(box: BenchBox) -> None:
-    box.stands_at(5, 150)
-    assert [read_by_hamlib(reply) for reply in Rc2800Session(box).receive(b"A\rE\r")] == [("A", 5.0), ("E", 150.0)]
-
-
-def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
-    assert Rc2800Session(new_box(blind=True)).receive(b"A\rE\r") == [b"A ERR=05\r", b"E ERR=05\r"]
 
 
 @every_row(

@@ -13,9 +13,7 @@ import pytest
 
 from hw.ports import Axis
 from rotator import __version__
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Order, Park, Stop
-from rotator.protocols.rotctld import BadRequest, Request, requests
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 from tests.tables import every_row
@@ -94,13 +92,6 @@ def session(box: BenchBox) -> RotctldSession:
     return RotctldSession(box)
 
 
-def test_what_makes_no_sense_ends_the_line() -> None:
-    reader = requests("p z S")
-    assert next(reader) == Request("get_pos")
-    with pytest.raises(BadRequest):
-        next(reader)
-
-
 @every_row(("line", "replies", "orders"), ROWS)
 def test_each_request(new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order]) -> None:
     whole = [line + end for end in (b"\n", b"\r\n")]
@@ -109,12 +100,6 @@ def test_each_request(new_box: type[BenchBox], line: bytes, replies: list[bytes]
         session = RotctldSession(box)
         assert [reply for piece in pieces for reply in session.receive(piece)] == replies
         assert box.orders == orders
-
-
-def test_all_requests_in_one_packet(box: BenchBox, session: RotctldSession, feed: Feed) -> None:
-    sent = b"".join(line + b"\n" for line, _, _ in ROWS)
-    assert feed(session, sent) == [reply for _, replies, _ in ROWS for reply in replies]
-    assert box.orders == [order for _, _, orders in ROWS for order in orders]
 
 
 @pytest.mark.parametrize("word", [b"KEEPALIVE", b"Kx", b"KP"])
@@ -186,12 +171,6 @@ def test_silence_does_not_end_what_is_only_begun(box: BenchBox, session: Rotctld
     assert box.orders == []
 
 
-def test_silence_does_not_make_a_request_of_a_long_lines_tail(session: RotctldSession) -> None:
-    session.receive(b"x" * 600)
-    session.receive(b"p")
-    assert session.idle() == []
-
-
 def test_what_silence_left_alone_can_still_be_completed(box: BenchBox, session: RotctldSession) -> None:
     session.receive(b"P 180.00")
     session.idle()
@@ -224,13 +203,6 @@ def test_dump_state_tells_what_the_box_accepts(
     assert tuple(map(float, rows[2:6])) == limits
     assert tuple(float(row.partition("=")[2]) for row in rows[7:11]) == limits
     assert all(len(row) <= 62 for row in rows)
-
-
-def test_refusals_and_a_blind_sensor_have_numbers(new_box: type[BenchBox]) -> None:
-    session = RotctldSession(new_box(missing=(Missing.CALIBRATION,)))
-    assert session.receive(b"P 10 20\nK\nS\n") == [INVALID, INVALID, OK]
-    blind = RotctldSession(new_box(blind=True))
-    assert blind.receive(b"p\n") == [IO_ERROR]
 
 
 # --- faults

@@ -10,7 +10,6 @@ import re
 from typing import TYPE_CHECKING
 
 from hw.ports import Axis, Direction
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Order, Park, Speed, Stop
 from rotator.exchange.status import AxisStatus, Status
 from rotator.protocols.rotctld_caps import status_words
@@ -98,19 +97,6 @@ def test_what_moves_nothing(new_box: type[BenchBox], line: str) -> None:
     assert [order for order in box.orders if order != Stop()] == []
 
 
-def test_a_jog_turns_both_axes_until_stopped(box: BenchBox) -> None:
-    session = RotctldSession(box)
-    session.receive(b"M UP_LEFT 100\n")
-    assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.PLUS}
-    session.receive(b"S\n")
-    assert set(box.driven.values()) == {Direction.OFF}
-
-
-def test_a_box_that_refuses_says_so_once(new_box: type[BenchBox]) -> None:
-    session = RotctldSession(new_box(missing=(Missing.CALIBRATION,)))
-    assert session.receive(b"+P 10 20\n") == [b"set_pos: 10 20\nRPRT -1\n"]
-
-
 # --- levels, functions, parameters, settings
 
 
@@ -161,18 +147,6 @@ def test_speed_reads_back(box: BenchBox) -> None:
     assert RotctldSession(box).receive(b"V SPEED 2\nv SPEED\n") == [b"RPRT 0\n", b"2\n"]
 
 
-def test_no_setting_widens_the_range(new_box: type[BenchBox]) -> None:
-    box = new_box((0, 360), (0, 90))
-    session = RotctldSession(box)
-    before = session.receive(b"\\dump_state\n")
-    assert session.receive(b"C max_az 450\nC min_az -180\n") == [b"RPRT -11\n", b"RPRT -11\n"]
-    assert session.receive(b"\\dump_state\n") == before
-    session.receive(b"P 400 20\n")
-    target_deg = box.status().azimuth.target_deg
-    assert target_deg is not None
-    assert target_deg <= 360
-
-
 def test_dump_conf_tells_what_get_conf_knows(box: BenchBox) -> None:
     session = RotctldSession(box)
     (listed,), (asked,) = session.receive(b"3\n"), session.receive(b"\\get_conf ?\n")
@@ -221,10 +195,3 @@ def axis(
 )
 def test_status_words(azimuth: AxisStatus, elevation: AxisStatus, words: str) -> None:
     assert status_words(Status(0.0, azimuth, elevation)) == words
-
-
-def test_status_while_it_turns(box: BenchBox) -> None:
-    session = RotctldSession(box)
-    assert session.receive(b"s\n") == [b"\n"]
-    session.receive(b"P 300 25\n")
-    assert session.receive(b"s\n") == [b"MOVING MOVING_AZ MOVING_RIGHT \n"]

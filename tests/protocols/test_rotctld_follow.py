@@ -47,13 +47,6 @@ def test_from_then_on_every_change_is_an_order(box: BenchBox, follower: RotctldF
     assert box.orders == [place(2.11, 0), place(4.21, 1), place(2.11, 0)]
 
 
-def test_at_rest_there_is_silence(box: BenchBox) -> None:
-    """Others may then move the antenna, though this one is still asked."""
-    follower = RotctldFollower(box, 0.1)
-    answer(follower, b"0.00\n0.00\n", *[b"30.00\n20.00\n"] * 1000)
-    assert box.orders == [place(30, 20)]
-
-
 @pytest.mark.parametrize("by_another", [Stop(), Aim(80, 40), Park()])
 def test_what_another_link_orders_is_not_undone(box: BenchBox, by_another: Order) -> None:
     follower = RotctldFollower(box, 0.1)
@@ -61,12 +54,6 @@ def test_what_another_link_orders_is_not_undone(box: BenchBox, by_another: Order
     box.order(by_another, Source("another"))
     answer(follower, *[b"30.00\n20.00\n"] * 200)
     assert box.orders == [place(30, 20), by_another]
-
-
-def test_a_rotor_that_turns_gives_an_order_for_each_place(box: BenchBox) -> None:
-    follower = RotctldFollower(box, 0.1)
-    answer(follower, b"0.00\n0.00\n", *[b"%d.00\n0.00\n" % deg for deg in range(1, 4)], *[b"3.00\n0.00\n"] * 5)
-    assert box.orders == [place(1, 0), place(2, 0), place(3, 0)]
 
 
 @pytest.mark.parametrize(

@@ -82,11 +82,6 @@ def test_a_move_names_no_opposites() -> None:
         assert (decode(wire, MD01, 10) is not None) == (first in {1, 2, 4, 8, 5, 9, 6, 10})
 
 
-@pytest.mark.parametrize("model", [ROT1, ROT2])
-def test_only_md_01_moves(model: Model) -> None:
-    assert decode(LEFT, model, 1) is None
-
-
 NO_FRAMES = [
     SET_123_77[:-1] + b"\x21",  # no end byte
     SET_123_77[:-1] + b"\x57",

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.faults import Missing
 from rotator.exchange.orders import Aim, Jog, Order, Stop
 from rotator.protocols.session import Session
 from rotator.protocols.spid import Command, Frame, Model, SpidSession, Turn, encode
@@ -107,24 +106,3 @@ def test_how_far_a_set_may_go(
     box = new_box((0, 540))
     SpidSession(box, MD01).receive(encode(Frame(Command.SET, azimuth_deg, elevation_deg), MD01, 10))
     assert box.orders == ([order] if order else [])
-
-
-def test_a_rot2progs_frame_on_a_rot1prog_link_is_out_of_range(box: BenchBox) -> None:
-    """The same bytes mean -264 there."""
-    SpidSession(box, ROT1).receive(bytes.fromhex("57 30 39 36 37 02 30 38 37 34 02 2F 20"))
-    assert box.orders == []
-
-
-@pytest.mark.parametrize("model", Model)
-def test_refused_it_stands_still_and_says_nothing_of_it(new_box: type[BenchBox], model: Model) -> None:
-    box = new_box(missing=(Missing.CALIBRATION,))
-    session = SpidSession(box, model)
-    assert len(session.receive(encode(Frame(Command.SET, 10, 20), model, 1))) == (model is MD01)
-    assert box.motions == []
-
-
-@pytest.mark.parametrize("model", Model)
-def test_a_position_that_is_not_known_is_silence(new_box: type[BenchBox], model: Model) -> None:
-    box = new_box(blind=True)
-    assert SpidSession(box, model).receive(STATUS + STOP) == []
-    assert box.orders == [Stop()]

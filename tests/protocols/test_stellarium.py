@@ -88,10 +88,6 @@ def test_over_the_top_it_is_the_direction(box: BenchBox) -> None:
     assert SKY.direction(Star(math.degrees(ra), math.degrees(dec), Equinox.J2000)) == pytest.approx((200, 30), abs=0.2)
 
 
-def test_an_unknown_position_is_not_sent(new_box: type[BenchBox]) -> None:
-    assert StellariumSession(new_box(blind=True), SKY).beat() == []
-
-
 def test_it_follows(box: BenchBox) -> None:
     session = StellariumSession(box, SKY)
     session.receive(target(200, 40))
