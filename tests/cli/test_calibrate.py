@@ -207,33 +207,6 @@ def memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def test_nothing_turns_after_a_stop_that_only_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
-    blocked = refuse(tmp_path / "state.json")
-    KeptLatch(State(tmp_path / "state.json", memory)).save(Latch("panel"))
-    blocked.rmdir()
-    text, code = finish(start("--config", str(kept_station(tmp_path))))
-    assert code == 1
-    assert "stopped by the panel before the restart: " in " ".join(text.split())
-
-
-def test_a_stop_during_a_calibration_is_newer_than_what_memory_has(start: Start, tmp_path: Path, memory: Path) -> None:
-    path = kept_station(tmp_path)
-    KeptLatch(State(tmp_path / "state.json")).save(Latch("panel"))
-    blocked = refuse(tmp_path / "state.json")
-    released = KeptLatch(State(tmp_path / "state.json", memory))
-    released.load()
-    released.save(None)
-    blocked.rmdir()
-    process = start("--config", str(path), "azimuth")
-    read_until(process, "> Press r")
-    subprocess.run([sys.executable, "-m", "rotator", "stop", "--config", str(path)], check=True, timeout=LIMIT_S)
-    process.communicate(timeout=LIMIT_S)
-    for folder in (None, memory):
-        stopped = KeptLatch(State(tmp_path / "state.json", folder)).load()
-        assert stopped is not None
-        assert stopped.by.startswith("console")
-
-
 def test_a_stop_that_is_ended_where_the_card_refuses_stays_ended(
     start_in_terminal: Callable[..., Any], tmp_path: Path, memory: Path
 ) -> None:

@@ -8,12 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
 from rotator.calibrating.axis_guide import AxisFacts
-from rotator.calibrating.entries import NUMBER_STARTS, Entry, Keyboard, Number, Press, StopNow, Unknown, Word
+from rotator.calibrating.entries import Entry, Number, StopNow, Unknown, Word
 from rotator.calibrating.table_guide import TableGuide
 from rotator.exchange.status import AxisStatus, Status
 
@@ -37,18 +35,6 @@ def test_words_stay_whole_and_a_held_key_is_counted(
     text = " ".join(" ".join(rows).split())
     assert "The box does not know its limits yet: be ready to cut the motors' supply." in text
     assert "q or Ctrl-C leaves: the motors stop, nothing is saved." in text
-
-
-@given(st.text(f"{NUMBER_STARTS}rludsynfbq \r\x7f\x1b[ABCDz", max_size=40))
-def test_any_keys_make_no_number_that_was_not_on_the_screen(keys: str) -> None:
-    keyboard = Keyboard()
-    for key in keys:
-        shown = keyboard.typed
-        entry = keyboard.key(key)
-        if isinstance(entry, Number):
-            assert key == "\r"
-            assert entry.value == float(shown.replace(",", "."))
-        assert not (isinstance(entry, Press) or entry is Word.QUIT) or not shown, "inside a number no letter acts"
 
 
 STANDS = Status(

@@ -47,12 +47,6 @@ def test_a_point_at_the_sun_is_saved_and_the_file_before_is_kept(station: Path) 
     assert station.with_name("station.toml.bak").read_text() == STATION
 
 
-def test_at_night_it_says_that_the_sun_is_down(station: Path) -> None:
-    text, code = sky(station, "--at", "2026-06-21T23:00:00Z", lines=("y",))
-    assert code == 1
-    assert "The Sun is 18° below the horizon" in text
-
-
 @pytest.mark.parametrize(
     ("options", "said"),
     [
@@ -65,10 +59,3 @@ def test_what_it_refuses(station: Path, options: tuple[str, ...], said: str) -> 
     text, code = sky(station, *options)
     assert code != 0
     assert said in text
-
-
-def test_it_needs_the_place(station: Path) -> None:
-    station.write_text('[rotor]\ntype = "moteus"\n')
-    text, code = sky(station)
-    assert code == 1
-    assert "[station]" in text

@@ -9,8 +9,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 Start = Callable[..., Any]
 Rotator = Callable[..., Any]
 
@@ -48,17 +46,6 @@ def test_a_configuration_that_cannot_be_used(rotator_here: Rotator, tmp_path: Pa
     assert rotator_here("doctor", "--config", path).returncode == 2
 
 
-def test_a_fault_of_the_running_box_is_an_error(rotator_here: Rotator, start: Start, config: Path) -> None:
-    box = start("run", "--plain", "--config", config, "--fault", "azimuth-pot-open")
-    box.until("FAULT azimuth")
-    answer = rotator_here("doctor", "--config", config, "--json")
-    assert answer.returncode == 1
-    (told,) = (check for check in checks(answer) if check["name"] == "running box")
-    assert told["ok"] is False
-    assert told["found"].startswith("azimuth: pot open or shorted: ")
-    assert box.stop() == 0
-
-
 def test_the_running_box_is_told_from_another_program(rotator_here: Rotator, start: Start, config: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         taken = other.getsockname()[1]
@@ -78,20 +65,3 @@ def test_the_running_box_is_told_from_another_program(rotator_here: Rotator, sta
     assert (ours["ok"], ours["found"]) == (True, f"127.0.0.1:{port}: the running box")
     assert theirs["ok"] is False
     assert f"127.0.0.1:{taken} is taken by {sys.executable}" in theirs["found"]
-
-
-def test_a_box_that_stands_still_is_a_fault(
-    rotator_here: Rotator, config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """It has its socket still, and answers nothing: no stop would arrive."""
-    monkeypatch.setattr("rotator.cli.box.ANSWER_S", 0.2)
-    with socket.socket(socket.AF_UNIX) as deaf:
-        (tmp_path / "run").mkdir()
-        deaf.bind(str(tmp_path / "run" / "console"))
-        deaf.listen()
-        answer = rotator_here("doctor", "--config", config, "--json")
-    assert answer.returncode == 1
-    (found,) = (check for check in checks(answer) if check["name"] == "running box")
-    assert found["ok"] is False
-    assert found["found"].startswith("the box does not answer within 0.2 s: ")
-    assert "start it anew" in found["advice"]

@@ -52,12 +52,6 @@ def test_whoever_types_stop_stops(bench: BenchBox, before: str, text: str) -> No
     assert bench.orders == [Stop(latch=True)]
 
 
-@pytest.mark.parametrize("length", [1, 100, 5000])
-def test_stop_is_read_at_the_end_of_any_line(bench: BenchBox, length: int) -> None:
-    typed(bench, "x" * length + "stop")
-    assert bench.orders == [Stop(latch=True)]
-
-
 @pytest.mark.parametrize("word", ["park", "resume"])
 def test_after_stop_the_next_word_counts(bench: BenchBox, word: str) -> None:
     """As on the first evening: s-t-o-p and Enter, and then a word."""
@@ -117,10 +111,6 @@ def test_enter_does_what_the_line_says_that_it_does(word: str) -> None:
         promised = keys.line.endswith("Enter does it")
         keys.key("\r")
         assert promised == bool(bench.orders), word[:end]
-
-
-def test_a_word_without_effect_says_why(bench: BenchBox) -> None:
-    assert typed(bench, " park\r").line == "park: stopped by link#1: nothing moves until resume"
 
 
 def test_a_release_does_not_say_that_a_fault_is_gone() -> None:
