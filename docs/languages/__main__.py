@@ -53,9 +53,22 @@ SINGLE = (
         "today",
     ),
     *("N", "E", "S", "W", "now", "done", "good", "warning", "errors", "simulated"),
-    "The file begins as the shipped one of this rotor. `rotator help wiring` shows each.",
-    "One is enough to begin; a [[link]] more for each other. `rotator help programs` lists them all.",
-    *("North", "East", "South", "West", "Yes", "Back", "Directions", "Times", "Limits"),
+    *(
+        "AUTO",
+        "MANUAL",
+        "JOG",
+        "PARK",
+        "next",
+        "North",
+        "East",
+        "South",
+        "West",
+        "Yes",
+        "Back",
+        "Directions",
+        "Times",
+        "Limits",
+    ),
     *(f"Turn it {way}." for way in ("clockwise", "up")),
     *(f"Now turn it back, {way}." for way in ("counter-clockwise", "down")),
     *(f"Did the antenna turn {way}?" for way in ("clockwise, seen from above", "up")),
@@ -64,12 +77,18 @@ SINGLE = (
     *("clockwise", "counter-clockwise", "up", "down", "UP", "DOWN"),
 )
 """Words that are no sentence, so that nothing finds them by itself."""
+OF_SETUP = (
+    *("whole", "bus", "address", "input", "none", "N1MM Logger+, by UDP"),
+    "The file begins as the shipped one of this rotor. `rotator help wiring` shows each.",
+    "One is enough to begin; a [[link]] more for each other. `rotator help programs` lists them all.",
+    "The Pi can be a COM port of the PC: `sudo rotator setup usb-serial` makes it one.",
+)
 OF_THE_DOCTOR = (
     *("free", "awake", "calibrated", "a place", "under-voltage", "throttled", "simulated: {0}"),
     *("64-bit", "32-bit", "{0}: 0x{1} answers", "{0} satellites from {1}"),
     *("over the top the antenna meets {0} too", "{0} stands on the other turn of the azimuth too"),
 )
-"""What else it says that is no sentence."""
+"""What else these views say that nothing finds by itself."""
 COLUMNS = re.compile(r"[ -\[\]-}]*")
 """What both character sets of an HD44780 have: ASCII without the backslash and the tilde."""
 
@@ -89,6 +108,7 @@ def texts() -> dict[tuple[str, str], str]:
             found |= {each: name for each, name in here.items() if (each[0], "") not in found}
     for view, where, there in (
         ("setup", "settings", sentences.meanings()),
+        ("setup", "programs.py", [*sentences.of_programs(), *OF_SETUP]),
         ("doctor", "checks.py", [*sentences.names_of_checks(), *OF_THE_DOCTOR]),
     ):
         found |= {(text, view): where for text in there if (text, "") not in found}

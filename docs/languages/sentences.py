@@ -18,7 +18,9 @@ from rotator.doctor.checks import CONFIGURATION, OF_THE_MACHINE, OF_THE_STATION
 from rotator.doctor.finding import Check
 from rotator.exchange.faults import OF_ANOTHER_SENSOR, FaultKind, Missing
 from rotator.exchange.spoken import short_sender
+from rotator.protocols.reference.programs import PROGRAMS
 from rotator.views import lcd
+from rotator.web.setting_up import plain
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
@@ -128,6 +130,12 @@ def meanings() -> list[str]:
     """What the settings say of each key and table of the file."""
     told = [each["meaning"] for table in forms() for each in (table, *table["keys"])]
     return list(dict.fromkeys(filter(None, told)))
+
+
+def of_programs() -> list[str]:
+    """What is to be set in a tracking program, and how it is connected; no names."""
+    told = [plain(text) for each in PROGRAMS for text in (each.name, each.where, each.settings)]
+    return [text for text in dict.fromkeys(told) if re.search(r"[a-z]{2,}[,;:]? [a-z]|, and |^serial$", text)]
 
 
 def fault_texts() -> list[str]:

@@ -185,6 +185,7 @@ PROGRAMS = (
         "Stellarium",
         ("stellarium",),
         "TCP `0.0.0.0:10001`, and [`[station]`](keys.md#station)",
+        "Plugins, Telescope Control: a telescope that a remote computer controls, the Pi's address, port 10001, J2000: "
         "[its section](../protocols.md#stellarium-and-other-telescope-programs)",
         (bytes.fromhex("1400 0000 0040075fda650600 00000040 72efff3f"),),
         "its source",

@@ -137,7 +137,7 @@ def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
     yield Question(
         "place", "Where does the antenna stand?",
         "A locator such as JN18du, or latitude and longitude such as 48,85 2,35 (south and west with a minus). "
-        "Only some programs need it; Enter leaves it out.", "", (), place,
+        "Only some programs need it: else leave it empty.", "", (), place,
     )  # fmt: skip
 
 

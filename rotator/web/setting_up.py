@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 _KEYS = r"[-+0-9.,ynfbqrludRLUDs? \r]{1,16}"
-_LINK = re.compile(r"\[([^\[\]]*)\]\([^()]*\)")
-"""A link in a page of the documentation. Only its text is shown, because the box has no such page."""
+_LINK = re.compile(r"(?:: )?\[(?:its page|its section|see below|(`\[\w+\]`|[^\[\]]*))\]\([^()]*\)")
+"""A link in a page of the documentation. The box has no such page: its text is shown, if it says anything."""
 Answers = Annotated[dict[str, str], the("by the names in /api/setup/questions")]
 
 
@@ -151,8 +151,8 @@ class SettingUpApi:
                 {
                     "name": each.name,
                     "protocols": each.protocols,
-                    "where": _plain(each.where),
-                    "settings": _plain(each.settings),
+                    "where": plain(each.where),
+                    "settings": plain(each.settings),
                 }
                 for each in PROGRAMS
             ]
@@ -202,5 +202,5 @@ def _shown(each: Asked) -> _Question:
     }
 
 
-def _plain(text: str) -> str:
-    return _LINK.sub(r"\1", text)
+def plain(text: str) -> str:
+    return _LINK.sub(r"\1", text).replace("*", "")

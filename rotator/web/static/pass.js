@@ -2,7 +2,7 @@
 // point, and how long it lasts; a thumb nudges while tracking stays on. What the browser does not give it says itself.
 import { boxTime, post, read } from "/box.js";
 import { hindrance } from "/orders.js";
-import { act, degrees, fitted, html, useEffect, useEvery, useRef, useState } from "/ui.js";
+import { act, degrees, fitted, html, said, useEffect, useEvery, useRef, useState, verbatim } from "/ui.js";
 
 const STEP_DEG = 1, MOST_DEG = 20, NO_EVENT_MS = 3000, NEXT_MS = 10_000, SHOWN_MS = 600, UPRIGHT_DEG = 50;
 const LOOKS = [["bright", "Sun"], ["dark", "Dark"], ["red", "Night"]];
@@ -140,7 +140,7 @@ function until(now, next) {
   if (tracks) return [tracks.name, now.rise_or_set];
   if (!next?.name) return ["Nothing is tracked", ""];
   const left = Math.max(0, Math.round((new Date(next.aos) - boxTime()) / 1000)), minutes = Math.floor(left / 60), two = (count) => String(count).padStart(2, "0");
-  return [`next: ${next.name}`, minutes < 60 ? `AOS ${minutes}:${two(left % 60)}` : `AOS ${Math.floor(minutes / 60)}h${two(minutes % 60)}`];
+  return [verbatim(`${said("next")}: ${next.name}`), minutes < 60 ? `AOS ${minutes}:${two(left % 60)}` : `AOS ${Math.floor(minutes / 60)}h${two(minutes % 60)}`];
 }
 
 export function PassMode({ now, station, hello, fresh, say }) {

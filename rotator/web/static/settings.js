@@ -1,7 +1,7 @@
 // All that the file can say: a form for each of its tables, what would change, and the new start of the box with it.
 import { command, post, read } from "/box.js";
 import { Field, plain, shown, typed } from "/fields.js";
-import { html, intoSight, Said, said, useEffect, useMemo, useRef, useState } from "/ui.js";
+import { html, intoSight, Said, said, useEffect, useMemo, useRef, useState, verbatim } from "/ui.js";
 
 const AGAIN_MS = 700, PATIENCE_MS = 60_000;
 const later = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -125,7 +125,7 @@ function ListTable({ table, file, draft, setDraft, ...more }) {
   return html`${Array.from({ length: count }, (_, index) => {
     const place = [...table.path, index], gone = draft[JSON.stringify(place)]?.value === GONE, one = at(file.values, place) ?? {};
     const about = [one.name, one.protocol, one.tcp ?? one.serial ?? one.pty ?? one.udp].filter(Boolean).join(", ");
-    return html`<details class="one" key=${index} open=${index >= had}><summary>${name(place)} ${about}${gone && html` <b>taken out</b>`}</summary>
+    return html`<details class="one" key=${index} open=${index >= had}><summary>${verbatim(name(place))} ${verbatim(about)}${gone && html` <b>taken out</b>`}</summary>
       ${gone ? html`<button type="button" onClick=${() => keep(place)}>Keep ${name(place)}</button>` : html`
         <${Keys} table=${table} place=${place} file=${file} draft=${draft} setDraft=${setDraft} ...${more} />
         <button type="button" onClick=${() => take(place)}>Take ${name(place)} out</button>`}</details>`;
@@ -143,7 +143,7 @@ export function Changes({ changes, diff, settings: { tables, file } }) {
   return html`${changes.length ? html`<table class="changes"><thead><tr><th scope="col">setting</th><th scope="col">now</th><th scope="col">then</th></tr></thead>
     <tbody>${changes.map(({ place, before, after }) => {
       const of = about(place), whole = typeof place.at(-1) === "number", unit = !of?.unit ? "" : of.unit === "°" ? "°" : ` ${of.unit}`;
-      return html`<tr><th scope="row">${name(place)}${of && html`<small>${plain(of.meaning)}</small>`}</th>
+      return html`<tr><th scope="row">${verbatim(name(place))}${of && html`<small>${plain(of.meaning)}</small>`}</th>
         <td><span class="only-read">now </span>${before == null ? (whole ? "not there" : without(place, unit)) : `${worded(before)}${unit}`}</td>
         <td><span class="only-read">then </span><b>${after == null ? (whole ? "taken out" : "left out") : `${worded(after)}${unit}`}</b></td></tr>`;
     })}</tbody></table>` : html`<p>No value changes, only how the file writes it.</p>`}
@@ -203,7 +203,7 @@ export function Settings({ settings, now, only, keys }) {
     <div class="outcome">${view}</div>
     ${tables.filter((table) => table.keys.some((of) => find(table, of))).map((table) => {
       const bad = wrong(table), touched = Object.keys(draft).some((text) => same(JSON.parse(text).filter((part) => typeof part === "string").slice(0, table.path.length), table.path));
-      return html`<details key=${name(table.path)} open=${!!wanted || !!only || bad > 0 || undefined}><summary><b>${name(table.path)}</b> ${plain(table.meaning)}${touched && html` <i>changed</i>`}${bad > 0 && html` <b class="mistake">${bad} wrong</b>`}</summary>
+      return html`<details key=${name(table.path)} open=${!!wanted || !!only || bad > 0 || undefined}><summary><b>${verbatim(name(table.path))}</b> ${plain(table.meaning)}${touched && html` <i>changed</i>`}${bad > 0 && html` <b class="mistake">${bad} wrong</b>`}</summary>
         <div class="keys">${table.many ? html`<${ListTable} key=${`${file.digest} ${forgotten}`} table=${table} ...${use} />` : html`<${Keys} table=${table} place=${table.path} ...${use} />`}</div></details>`;
     })}
   </section>`;

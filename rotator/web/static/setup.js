@@ -3,6 +3,7 @@ import { post, read } from "/box.js";
 import { Begin, Guide } from "/calibrate.js";
 import { Errands } from "/errands.js";
 import { Asks } from "/hand.js";
+import { plain } from "/fields.js";
 import { Header } from "/header.js";
 import { Place } from "/place.js";
 import { Missing, NoFile, Settings, ready, useChange, useSettings } from "/settings.js";
@@ -27,7 +28,7 @@ function Rotor({ settings, now }) {
       ${choices.length > 0 && html`<select id=${`ask-${name}`} aria-describedby=${`ask-${name}-help`} value=${choices.some((each) => each.answer === answer) ? answer : ""} onInput=${(event) => set(name, event.target.value)}>
         ${choices.map((each) => html`<option value=${each.answer}>${each.words}</option>`)}${open && !choices.some((each) => each.answer === answer) && html`<option value="">${answer}</option>`}</select>`}
       ${(!choices.length || (open && name !== "rotor")) && html`<input id=${choices.length ? null : `ask-${name}`} aria-label=${choices.length ? `${text} Another answer` : null} aria-describedby=${`ask-${name}-help`} placeholder=${choices.length ? "or another one" : ""} value=${choices.some((each) => each.answer === answer) ? "" : answer} onInput=${(event) => set(name, event.target.value)} />`}
-      <p class="about" id=${`ask-${name}-help`}>${help}</p>${mistake && html`<p class="mistake" role="alert">${mistake}</p>`}</div>`)}
+      <p class="about" id=${`ask-${name}-help`}>${plain(help)}</p>${mistake && html`<p class="mistake" role="alert">${mistake}</p>`}</div>`)}
     ${view}${!proposed && html`<button type="button" class="go" disabled=${settings.busy !== "" || questions.some((each) => each.mistake)} onClick=${() => check({ answers: all })}>See the new file</button>
         ${questions.some((each) => each.mistake) && html`<p class="mistake">First mend what stands in red above.</p>`}<p class="about">It begins as the shipped file of that rotor, in place of the one that is there. What it says of this page stays.</p>`}`;
 }
@@ -72,9 +73,9 @@ function Links({ now, say, settings }) {
   const [programs, setPrograms] = useState([]), [name, setName] = useState("");
   useEffect(() => void act(read("setup/programs").then((told) => setPrograms(told.programs)), say), []);
   const links = settings.file?.in_force?.link ?? [], one = programs.find((each) => each.name === name), fits = one ? links.filter((link) => one.protocols.includes(link.protocol)) : [];
-  return html`<label>Your tracking program<select value=${name} onInput=${(event) => setName(event.target.value)}><option value="">choose it</option>${programs.map((each) => html`<option>${each.name}</option>`)}</select></label>
-    ${one && html`<p>Set in it: ${one.settings}.</p>
-      <p>${fits.length ? html`It fits ${fits.map((link) => html`<code>${link.protocol} ${place(link)}</code> `)}` : html`It needs a link with <code>${one.protocols.join(" or ")}</code>${one.where && `, ${one.where}`}: one more <code>[[link]]</code> in all settings.`}</p>`}
+  return html`<label>Your tracking program<select value=${name} onInput=${(event) => setName(event.target.value)}><option value="">choose it</option>${programs.map((each) => html`<option value=${each.name}>${each.name}</option>`)}</select></label>
+    ${one && html`<p>Set in it: ${plain(one.settings)}.</p>
+      <p>${fits.length ? html`It fits ${fits.map((link) => html`<code>${link.protocol} ${place(link)}</code> `)}` : html`It needs a link with <code>${one.protocols.join(" or ")}</code>${one.where && html`, ${plain(one.where)}`}: one more <code>[[link]]</code> in all settings.`}</p>`}
     <h3>Is it heard?</h3><p>Let the program ask for the position, or send one, and watch its line here.</p>
     <ul class="heard">${now.links.map((link) => html`<${Heard} key=${link.name + link.where} link=${link} program=${fits.some((each) => each.protocol === link.protocol) ? one.name : ""} />`)}</ul>`;
 }

@@ -12,6 +12,9 @@ const parsed = htm.bind(h);
 /** Elements from a template, in the reader's language. */
 export const html = (texts, ...values) => parsed(...inWords(texts, values));
 
+/** A key or a value of the file as it stands there, in no other words: lists are not looked up. */
+export const verbatim = (text) => [text];
+
 export const degrees = (angle, digits = 1) => (angle == null ? "---" : `${angle.toFixed(digits)}°`);
 
 /** The axes that the rotor has. `of`: the status, or the facts of the box. */
