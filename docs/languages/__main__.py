@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import sys
 from collections import Counter
+from collections.abc import Iterable
 
 from babel.messages.catalog import Catalog, Message
 from babel.messages.pofile import read_po, write_po
@@ -54,6 +55,10 @@ SINGLE = (
     ),
     *("N", "E", "S", "W", "now", "done", "good", "warning", "errors", "simulated"),
     *(
+        "{0} warning",
+        "{0} warnings",
+        "{0} satellite",
+        "{0} satellites",
         "AUTO",
         "MANUAL",
         "JOG",
@@ -85,10 +90,12 @@ OF_SETUP = (
 )
 OF_THE_DOCTOR = (
     *("free", "awake", "calibrated", "a place", "under-voltage", "throttled", "simulated: {0}"),
-    *("64-bit", "32-bit", "{0}: 0x{1} answers", "{0} satellites from {1}"),
+    *("64-bit", "32-bit", "{0}: 0x{1} answers"),
     *("over the top the antenna meets {0} too", "{0} stands on the other turn of the azimuth too"),
 )
 """What else these views say that nothing finds by itself."""
+_MANY = re.compile(r"^(\{0\} [a-z]+)s\b")
+"""How a message for many things begins: that for one thing, if the program has it, stands in the same entry."""
 COLUMNS = re.compile(r"[ -\[\]-}]*")
 """What both character sets of an HD44780 have: ASCII without the backslash and the tilde."""
 
@@ -115,6 +122,13 @@ def texts() -> dict[tuple[str, str], str]:
     return found | {(text, DISPLAY): f"display, {width} columns" for text, width in display.items()}
 
 
+def plurals(messages: Iterable[str]) -> dict[str, str]:
+    """The message for many things by that for one thing."""
+    known = set(messages)
+    pairs = ((_MANY.sub(r"\1", text), text) for text in known if _MANY.match(text))
+    return {one: many for one, many in pairs if one in known}
+
+
 def read(language: str) -> Catalog:
     path = FOLDER / f"{language}.po"
     if not path.exists():
@@ -128,15 +142,18 @@ def written(language: str) -> None:
     before = read(language)
     now = Catalog(language, header_comment=f"# The {language} words of gs232-rotator: see CONTRIBUTING.md, Languages.")
     now.mime_headers[:] = []
+    many = plurals(text for text, _ in texts())
     for (text, context), where in sorted(texts().items(), key=lambda each: (each[0][1], each[1], each[0][0])):
         old = before.get(text, context or None) or next(
             # A text has moved from a view to all of them, or the other way.
             (each for view in ("", *VIEWS) if context != DISPLAY and (each := before.get(text, view or None))),
             None,
         )
+        if text in many.values():
+            continue
         now.add(
-            text,
-            old.string if old else "",
+            (text, many[text]) if text in many else text,
+            old.string if old and isinstance(old.string, tuple) is (text in many) else "",
             auto_comments=[where],
             flags=old.flags if old else (),
             context=context or None,
@@ -149,7 +166,10 @@ def mistakes(language: str) -> list[str]:
     """What is wrong with a catalogue, in sentences."""
     catalogue, display = read(language), sentences.display_texts()
     found = []
+    many = plurals(text for text, _ in texts()).values()
     for text, context in texts():
+        if text in many:
+            continue
         message = catalogue.get(text, context or None)
         found += [
             f"{language}: {problem}: {text!r}"
@@ -159,9 +179,14 @@ def mistakes(language: str) -> list[str]:
 
 
 def _wrong(text: str, message: Message | None, columns: int) -> list[str]:
-    if message is None or not message.string or message.fuzzy:
+    forms = () if message is None else message.string if isinstance(message.string, tuple) else (message.string,)
+    if message is None or not all(forms) or message.fuzzy:
         return ["no translation"]
-    told, found = str(message.string), []
+    return [problem for told in forms for problem in _wrong_in(text, str(told), columns)]
+
+
+def _wrong_in(text: str, told: str, columns: int) -> list[str]:
+    found = []
     if Counter(re.findall(r"\{\d+\}", text)) != Counter(re.findall(r"\{\d+\}", told)):
         found.append("other placeholders")
     if ("<" in told and "<" not in text) or ('"' in told and '"' not in text):

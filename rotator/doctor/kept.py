@@ -85,11 +85,13 @@ def elements(machine: Machine, config: Config) -> Iterator[Finding]:
     ages = [each.age_days(now_s) for each in catalogue.satellites]
     if ages and min(ages) > OLD_DAYS:
         yield warn(
-            f"{len(ages)} satellites, the newest elements are {min(ages):.0f} days old",
+            f"{len(ages)} satellite{'' if len(ages) == 1 else 's'}, the newest elements are {min(ages):.0f} days old",
             "Put newer files there, or let the box fetch them: [sky] fetch.",
         )
     elif ages:
-        yield fine(f"{len(ages)} satellites, the newest elements are {min(ages):.1f} days old")
+        yield fine(
+            f"{len(ages)} satellite{'' if len(ages) == 1 else 's'}, the newest elements are {min(ages):.1f} days old"
+        )
     fetches = fetches_file(config, machine.at).load() or {}
     for address in config.sky.fetch:
         asked = fetches.get(address)
@@ -98,4 +100,4 @@ def elements(machine: Machine, config: Config) -> Iterator[Finding]:
         elif asked.trouble:
             yield warn(f"{address}: {asked.trouble}", "rotator sky elements shows when it is asked again.")
         else:
-            yield fine(f"{asked.sets} satellites from {address}")
+            yield fine(f"{asked.sets} satellite{'' if asked.sets == 1 else 's'} from {address}")

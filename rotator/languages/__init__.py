@@ -24,22 +24,28 @@ DISPLAY = "display"
 """The context of the texts for a display of sixteen columns."""
 VIEWS = "setup", "doctor"
 """Contexts of the texts that one view of the page shows and no other: they are loaded with that view."""
-_PART = re.compile(r'^(msgctxt|msgid|msgstr) ((?:"(?:[^"\\]|\\.)*"\s*)+)', re.MULTILINE)
+FORMS = "\v"
+"""Between the forms of a message with a count, in the order of gettext: for one thing first, for many last."""
+_PART = re.compile(r'^(msgctxt|msgid|msgid_plural|msgstr(?:\[\d\])?) ((?:"(?:[^"\\]|\\.)*"\s*)+)', re.MULTILINE)
 _QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
 @cache
 def catalogue(language: str, context: str = "") -> Mapping[str, str]:
-    """The translations by their English text; none for English. An unsure one (`fuzzy`) does not count."""
+    """The translations by their English text; none for English. An unsure one (`fuzzy`) does not count.
+
+    A message with a count stands there for one thing and for many, and has all forms of the language.
+    """
     if language not in LANGUAGES or language == "en":
         return {}
     text = Path(__file__).with_name(f"{language}.po").read_text(encoding="utf-8")
-    found = {}
+    found: dict[str, str] = {}
     for block in text.split("\n\n"):
         parts = {name: "".join(map(_text, _QUOTED.findall(quoted))) for name, quoted in _PART.findall(block)}
         unsure = block.startswith("#, fuzzy") or "\n#, fuzzy" in block
-        if parts.get("msgstr") and parts.get("msgctxt", "") == context and not unsure:
-            found[parts["msgid"]] = parts["msgstr"]
+        forms = [told for name, told in parts.items() if name.startswith("msgstr")]
+        if all(forms) and parts.get("msgctxt", "") == context and not unsure:
+            found |= {text: FORMS.join(forms) for name, text in parts.items() if name.startswith("msgid")}
     return found
 
 

@@ -13,7 +13,7 @@ from docs.languages import __main__ as catalogues
 from docs.languages import page_texts
 from hw.ports import Axis
 from rotator.exchange.faults import Fault, FaultKind
-from rotator.languages import LANGUAGES, catalogue
+from rotator.languages import FORMS, LANGUAGES, catalogue
 from rotator.languages import VIEWS as WITH_WORDS
 from tests.page.conftest import Station
 
@@ -83,6 +83,7 @@ def test_a_fault_is_said_whole(start: Callable[..., Station], visit: Callable[..
 
 def _with_values(text: str, of: str = "") -> str:
     """Numbers in place of values; of two that touch in the English text `of`, the second is a clause."""
+    text = text.split(FORMS)[-1]
     clauses = re.findall(r"(?<=\})\{(\d+)\}", of or text)
     return re.sub(r"\{(\d+)\}", lambda it: f"{', ' if it[1] in clauses else ''}{17 * (1 + int(it[1]))}", text)
 

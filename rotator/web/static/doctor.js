@@ -1,6 +1,6 @@
 // The doctor: each check with its mark, and what to do. The box examines itself in a process of its own.
 import { read } from "/box.js";
-import { html, Said, useEffect, useRef, useState } from "/ui.js";
+import { html, Said, said, useEffect, useRef, useState, verbatim } from "/ui.js";
 
 const COMPUTES_MS = 700, TICK_MS = 5000;
 const MARKS = { wrong: ["✗", "to repair"], warning: ["!", "warning"], good: ["✓", "good"], skipped: ["–", "not checked"] };
@@ -13,8 +13,8 @@ function markOf(check) {
 function verdict(checks) {
   const count = (mark) => checks.filter((check) => markOf(check) === mark).length;
   const wrong = count("wrong"), warnings = count("warning"), skipped = count("skipped");
-  const parts = [wrong && `${wrong} to repair`, warnings && `${warnings} warning${warnings > 1 ? "s" : ""}`].filter(Boolean);
-  return `${parts.join(", ") || "No problem found"}${skipped ? `, ${skipped} not checked` : ""}.`;
+  const parts = [wrong && `${wrong} to repair`, warnings && (warnings === 1 ? `${warnings} warning` : `${warnings} warnings`)].filter(Boolean).map(said);
+  return verbatim(`${parts.join(", ") || said("No problem found")}${skipped ? `, ${said(`${skipped} not checked`)}` : ""}.`);
 }
 
 const ago = (seconds) => (seconds < 60 ? "just now" : `${Math.floor(seconds / 60)} min ago`);

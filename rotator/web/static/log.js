@@ -38,7 +38,7 @@ export function Log() {
       <div class="choice" role="group" aria-label="Which lines">${order.map((each) => html`<button type="button" aria-pressed=${rank === each}
         onClick=${() => setRank(each)}>${RANKS[each]}</button>`)}</div>
       <div class="choice" role="group" aria-label="What is shown">
-        <button type="button" onClick=${() => setCopied(copy(asText(shown)) ? `${shown.length} ${shown.length === 1 ? "line" : "lines"} copied` : "this browser does not copy")}>Copy</button>
+        <button type="button" onClick=${() => setCopied(copy(asText(shown)) ? shown.length === 1 ? `${shown.length} line copied` : `${shown.length} lines copied` : "this browser does not copy")}>Copy</button>
         <button type="button" onClick=${() => save(asText(shown))}>Save</button><span role="status">${copied}</span></div></form>
     <table><thead><tr><th scope="col">when</th><th scope="col">what</th></tr></thead>
       <tbody>${shown.map((line) => html`<tr class=${line.rank}><td><time>${time(line.at_s)}</time></td><td>${line.text}</td></tr>`)}</tbody></table>

@@ -8,6 +8,7 @@ const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE 
 const READ = ["aria-label", "title", "placeholder", "label", "alt"], VERBATIM = ["code", "pre", "svg", "style"], MOST_KEPT = 3000;
 const SEPARATORS = [/([.!?] +|[.!?]+$)/, /(; +)/, /(: +)/, /(, +)/, /( and )/, /( ?\(|\)$)/];
 const VIEWS = ["setup", "doctor"], PATIENCE_MS = 3000;
+const rules = new Intl.PluralRules(first.language), FORM = { one: 0, few: 1 };
 const known = new Map(), kept = new Map(), cuts = new WeakMap();
 const learn = ({ keys, words }) => words[0] && keys.forEach((key, at) => known.set(key, words[at]));
 learn(first);
@@ -58,7 +59,13 @@ function short(text) {
 }
 
 const exact = (text) => known.get(short(text));
-const look = (message) => (message.includes("{0}") ? known.get(message) : exact(message)) || (missed.add(message), "");
+const look = (message) => form((message.includes("{0}") ? known.get(message) : exact(message)) || (missed.add(message), ""));
+
+/** A translation in the form for this count: gettext has that for one thing first, and that for many last. */
+function form(told, count) {
+  const forms = told.split("\v");
+  return forms[FORM[rules.select(count)] ?? forms.length - 1];
+}
 
 /** The same template and its values, in the reader's language. */
 export function inWords(texts, values) {
@@ -87,7 +94,7 @@ function found(text, whole) {
   if (told) return told[0].toUpperCase() + told.slice(1);
   for (const { pattern, translation, open } of patterns(text)) {
     const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value.trim(), open) : value]);
-    if (values && !(open && values.some(([, inWords]) => inWords === null))) return translation.replace(/\{(\d+)\}/g, (_, at) => values[at][1] ?? values[at][0]);
+    if (values && !(open && values.some(([, inWords]) => inWords === null))) return form(translation, values.find(([value]) => !isNaN(value))?.[0]).replace(/\{(\d+)\}/g, (_, at) => values[at][1] ?? values[at][0]);
   }
   if (whole) return null;
   const pieces = SEPARATORS.map((separator) => text.split(separator)).find((each) => each.length > 1) ?? [];
