@@ -18,7 +18,7 @@ from rotator.doctor.checks import CONFIGURATION, OF_THE_MACHINE, OF_THE_STATION
 from rotator.doctor.finding import Check
 from rotator.exchange.faults import OF_ANOTHER_SENSOR, FaultKind, Missing
 from rotator.exchange.spoken import short_sender
-from rotator.protocols.reference.programs import PROGRAMS
+from rotator.protocols.programs import PROGRAMS
 from rotator.views import lcd
 from rotator.web.setting_up import plain
 

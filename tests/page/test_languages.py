@@ -83,7 +83,7 @@ def test_a_fault_is_said_whole(start: Callable[..., Station], visit: Callable[..
 
 def _with_values(text: str, of: str = "") -> str:
     """Numbers in place of values; of two that touch in the English text `of`, the second is a clause."""
-    text = text.split(FORMS)[-1]
+    text = text.rsplit(FORMS, maxsplit=1)[-1]
     clauses = re.findall(r"(?<=\})\{(\d+)\}", of or text)
     return re.sub(r"\{(\d+)\}", lambda it: f"{', ' if it[1] in clauses else ''}{17 * (1 + int(it[1]))}", text)
 
