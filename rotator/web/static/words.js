@@ -64,7 +64,7 @@ const look = (message) => form((message.includes("{0}") ? known.get(message) : e
 /** A translation in the form for this count: gettext has that for one thing first, and that for many last. */
 function form(told, count) {
   const forms = told.split("\v");
-  return forms[FORM[rules.select(count)] ?? forms.length - 1];
+  return forms[FORM[rules.select(count)]] ?? forms.at(-1);
 }
 
 /** The same template and its values, in the reader's language. */
