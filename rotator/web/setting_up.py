@@ -149,7 +149,7 @@ class SettingUpApi:
         return {
             "programs": [
                 {
-                    "name": each.name,
+                    "name": plain(each.name),
                     "protocols": each.protocols,
                     "where": plain(each.where),
                     "settings": plain(each.settings),
