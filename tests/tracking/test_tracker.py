@@ -201,6 +201,19 @@ def test_a_stop_after_a_fault_ends_the_tracking(rise: Box, orders: list[tuple[So
     assert rise.loop.status.flown is None
 
 
+def test_going_on_is_the_same_where_a_fault_has_left_the_tracking_as_it_was(rise: Box) -> None:
+    assert rise.tracker.track("iss") == ""
+    broken(rise)
+    rise.wait(2.0)
+    person = at_the_console(rise)
+    assert person.goes_on_with == "", "nothing has ended"
+    assert person.do(GoOn()) == ""
+    rise.wait(5.0)
+    assert rise.loop.status.faults == ()
+    assert rise.tracker.state == "tracking"
+    assert person.do(GoOn()) == NOTHING_LEFT, "there is no fault"
+
+
 def at_the_console(box: Box) -> Operating:
     return Operating(Client(box.loop, box.mount, PERSON), box.tracker)
 
