@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Release, RunTimed, Stop
+from rotator.exchange.orders import Aim, Jog, LoadTimed, Order, Park, Release, RunTimed, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
 RESTING = {AZ: OFF, EL: OFF}
+MOVES: list[Order] = [Aim(235, 60), Jog(AZ, PLUS), Jog(AZ, PLUS, 1.0), Park(), LoadTimed(1.0, ((235, 60),))]
 BROKEN = [0.0, 0.01, 0.99, 1.0, math.nan, None]
 
 
@@ -66,6 +67,21 @@ def test_coasting_back_from_beyond_the_limit_a_jog_outward_waits(desk: Any) -> N
         desk.step()
     desk.angle_deg[AZ] = 450.05
     assert desk.step(Jog(AZ, PLUS)) == RESTING
+
+
+# --- STOP from the console, the panel, the page
+
+
+@pytest.mark.parametrize("order", MOVES, ids=str)
+def test_while_latched_orders_have_no_effect(desk: Any, order: Order) -> None:
+    desk.step(Aim(235, 60))
+    assert desk.step(Stop(latch=True), by=desk.CONSOLE) == RESTING
+    assert desk.status.latched == "console"
+    desk.step(order)
+    assert desk.run(20.0) == set()
+    desk.step(Stop())
+    desk.step(order)
+    assert desk.run(5.0) == set(), "S on a link does not release what a person latched"
 
 
 # --- S on one link, a stream on another
