@@ -19,6 +19,8 @@ from rotator.languages import DISPLAY, LANGUAGES, VIEWS
 FOLDER = sentences.ROOT / "rotator/languages"
 STATIC = sentences.ROOT / "rotator/web/static"
 SINGLE = (
+    # Of stop.js.
+    *("NOT HEARD: use the box's own switch", "not heard yet: trying again", "trying again"),
     *(
         "azimuth",
         "elevation",

@@ -9,6 +9,12 @@
   var round = 0, unheard = false, pressedMs = -SAME_PRESS_MS;
 
   function say(text) {
+    // In the reader's language where the page is there and knows it.
+    try {
+      text = window.inReadersWords(text);
+    } catch (fault) {
+      // English then.
+    }
     document.getElementById("stop-note").textContent = text;
     document.getElementById("stop-said").textContent = text;
   }

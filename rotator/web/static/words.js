@@ -87,6 +87,9 @@ export function said(text) {
   return kept.get(text) ?? text;
 }
 
+// STOP is no module, and waits for none.
+window.inReadersWords = said;
+
 /** Null: it is in no catalogue. A sentence is looked for as it stands, by its pattern, then, if not `whole`, in pieces. */
 function found(text, whole) {
   if (exact(text)) return exact(text);
