@@ -143,17 +143,17 @@ def test_a_pulled_cable_stops_the_antenna_and_the_page_comes_back_when_it_is_plu
 
 
 @pytest.mark.parametrize(
-    ("status", "body", "says"),
+    ("status", "body", "language", "says"),
     [
-        (502, "<h1>Bad Gateway</h1>", "not heard yet: trying again"),
-        (200, "<h1>Please log in</h1>", "not heard yet: trying again"),
-        (403, '{"error": "the box has another name"}', "the box has another name: trying again"),
+        (502, "<h1>Bad Gateway</h1>", "en", "not heard yet: trying again"),
+        (200, "<h1>Please log in</h1>", "de", "noch nicht gehört: neuer Versuch"),
+        (403, '{"error": "the box has another name"}', "en", "the box has another name: trying again"),
     ],
 )
 def test_a_stop_that_the_box_has_not_confirmed_is_sent_again(
-    start: Start, visit: Visit, status: int, body: str, says: str
+    start: Start, visit: Visit, status: int, body: str, language: str, says: str
 ) -> None:
-    page = visit(start())
+    page = visit(start(), locale=language)
     wrong, confirmed = [True], []
 
     def answer(route: Route) -> None:
@@ -170,7 +170,7 @@ def test_a_stop_that_the_box_has_not_confirmed_is_sent_again(
     wrong.clear()
     page.locator("#stop-note:empty").wait_for(state="attached")
     assert len(confirmed) == 1
-    headline(page, "STOPPED by")
+    headline(page, {"en": "STOPPED by", "de": "ANGEHALTEN"}[language])
 
 
 def test_stop_needs_no_other_script(start: Start, visit: Visit) -> None:
