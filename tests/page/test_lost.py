@@ -151,7 +151,7 @@ def test_a_pulled_cable_stops_the_antenna_and_the_page_comes_back_when_it_is_plu
     ],
 )
 def test_a_stop_that_the_box_has_not_confirmed_is_sent_again(
-    start: Start, visit: Visit, status: int, body: str, language: str, says: str
+    start: Start, visit: Visit, *, status: int, body: str, language: str, says: str
 ) -> None:
     page = visit(start(), locale=language)
     wrong, confirmed = [True], []
