@@ -45,11 +45,12 @@ export function Demo({ now, say }) {
   if (asked && !now.stopper) return html`<${Says} words="The box plans the pass …" />`;
   if (left) return html`<${Left} pass=${left} again=${() => fly(left.name.endsWith(FAST) ? "fast" : "life")} close=${() => (setLeft(null), setSince(0))} />`;
   if (waits && !now.stopper) return html`<${Says} words="The pass is over. Its picture is drawn …" />`;
-  const busy = status.tracks || now.tracking === "planning" || now.stopper || now.holder || status.panel_mode !== "auto" || status.azimuth.fault || status.elevation.fault;
+  const busy = status.tracks || now.tracking === "planning" || now.stopper || status.panel_mode !== "auto" || status.azimuth.fault || status.elevation.fault;
+  // While somebody holds the antenna the offer keeps its place: a button that is held to turn may not move away under the finger.
   return busy ? null : html`<section class="panel demo offer" aria-label="Demonstration">
-    <button type="button" class="go" onClick=${() => fly("fast")}>Fly a demo pass</button>
+    <button type="button" class="go" disabled=${!!now.holder} onClick=${() => fly("fast")}>Fly a demo pass</button>
     <p>See it work: the ISS flies over your continent, ten times as fast as life, and the simulated antenna follows. Nothing real turns.</p>
-    <button type="button" class="link" onClick=${() => fly("life")}>Or in ten minutes, as fast as in life</button>
+    <button type="button" class="link" disabled=${!!now.holder} onClick=${() => fly("life")}>Or in ten minutes, as fast as in life</button>
   </section>`;
 }
 
