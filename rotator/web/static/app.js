@@ -64,14 +64,19 @@ function Antenna({ station, now, hello, fresh, say }) {
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
     <div class="stage">
       <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /></div>
-      <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${pick} flying=${flying} /></div>
+      <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next}
+        draft=${directionOf(draft)} onPick=${pick} flying=${flying} /></div>
       <div class="pick">${one && html`<div class="panel"><${Chosen} one=${one} now=${now} hello=${hello} say=${say} onClose=${() => choose(null)} /></div>`}
-        ${paired && directionOf(draft) && html`<div class="panel"><${Orders} now=${now} hello=${hello} quiet><${ThereFromSky} station=${station} draft=${draft} say=${say} /><//></div>`}
-        ${dome && html`<div class="panel"><${UpNow} sky=${sky} fault=${fault} known=${station.where} clockKnown=${now.clock_known} chosen=${chosen} choose=${choose} /></div>`}</div>
+        ${paired && directionOf(draft) && html`<div class="panel"><${Orders} now=${now} hello=${hello} quiet><${ThereFromSky}
+          station=${station} draft=${draft} say=${say} /><//></div>`}
+        ${dome && html`<div class="panel"><${UpNow} sky=${sky} fault=${fault} known=${station.where}
+          clockKnown=${now.clock_known} chosen=${chosen} choose=${choose} /></div>`}</div>
       ${paired && html`<div class="panel favourites-panel"><${Favourites} now=${now} hello=${hello} station=${station} say=${say} /></div>`}
       <div class="panel timeline-panel"><${Timeline} now=${now} station=${station} hello=${hello} say=${say} /></div>
-      <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}
-        ${station.elevation.fitted && html`<${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} />`}</div>
+      <div class="panel dials">${station.azimuth.fitted && html`<${AzimuthDial} range=${station.azimuth}
+        angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />`}
+        ${station.elevation.fitted && html`<${ElevationDial} range=${station.elevation} angle=${now.elevation_deg}
+          target=${now.elevation_target_deg} drive=${elevation.drive} />`}</div>
       <div class="panel front-panel"><${Front} now=${now} /><${Notes} now=${now} /></div>
       <div class="panel links-panel"><${Links} now=${now} station=${station} /></div>
       <div class="panel chart-panel"><${Chart} past=${past} axes=${fitted(station)} /></div>
@@ -82,7 +87,8 @@ function Antenna({ station, now, hello, fresh, say }) {
           <${Orders} now=${now} hello=${hello} quiet=${hindrance(now, hello, true)}>
           <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
           <${Track} now=${now} known=${station.where} say=${say} />
-          <${Asks} label="To the park position" question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Turn it there?`}
+          <${Asks} label="To the park position"
+            question=${`The antenna turns to ${station.elevation.fitted ? `${station.park[0]}°, ${station.park[1]}°` : `${station.park[0]}°`} and stays there until you let it move again. Turn it there?`}
             yes="Turn it there" onYes=${() => act(post("park"), say)} /><//>
           <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
         <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
@@ -119,8 +125,12 @@ function Page() {
   return html`<header>
       <h1>rotator</h1>
       ${now?.status.simulated && html`<strong class="sim">SIM<span> simulated: nothing real turns</span></strong>`}
-      <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
-      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? html`<a href="#paired" title="Paired browsers and programs">${hello.paired ? hello.name : "may only look"}</a>` : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
+      <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`}
+        aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
+      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? html`<a href="#paired"
+        title="Paired browsers and programs">${hello.paired ? hello.name : "may only look"}
+        </a>` : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>
+        ${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
     </header>
     ${now && html`<${Strip} now=${now} paired=${hello.paired} fresh=${fresh} beside=${view === ""} said=${said} say=${say} />`}
     ${now && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}

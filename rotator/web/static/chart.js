@@ -21,20 +21,26 @@ function line(past, column, { y }) {
   return path;
 }
 
-const Marks = ({ name, of }) => html`<div class=${name} aria-hidden="true">${of.marks.map((mark) => html`<span style=${{ top: `${of.y(mark)}%` }}>${mark}°</span>`)}</div>`;
+const Marks = ({ name, of }) => html`<div class=${name} aria-hidden="true">${of.marks.map((mark) => html`<span
+  style=${{ top: `${of.y(mark)}%` }}>${mark}°</span>`)}</div>`;
 
 export function Chart({ past, axes }) {
   const [axis, setAxis] = useState(axes[0]), columns = AXES[axis];
-  const angles = past.flatMap((row) => columns.map((column) => row[column])).filter((angle) => angle != null), offs = past.map((row) => row[OFF] ?? 0);
-  const angle = scale(Math.min(...(angles.length ? angles : [0])) - MARGIN_DEG, Math.max(...(angles.length ? angles : [0])) + MARGIN_DEG), off = scale(0, Math.max(LEAST_OFF_DEG, ...offs));
+  const angles = past.flatMap((row) => columns.map((column) => row[column])).filter((angle) => angle != null),
+    offs = past.map((row) => row[OFF] ?? 0);
+  const angle = scale(Math.min(...(angles.length ? angles : [0])) - MARGIN_DEG, Math.max(...(angles.length ? angles : [0])) + MARGIN_DEG),
+    off = scale(0, Math.max(LEAST_OFF_DEG, ...offs));
   const area = line(past.map((row) => [row[0], row[OFF] ?? 0]), 1, off);
   return html`<section class="chart"><div class="choice" role="group" aria-label="Axis of the chart">
       ${axes.length > 1 && axes.map((each) => html`<button type="button" aria-pressed=${axis === each} onClick=${() => setAxis(each)}>${each}</button>`)}
       <span class="key antenna">antenna</span><span class="key target">target</span><span class="key off">off target</span></div>
     <div class="plot" role="img" aria-label=${`The ${axis} of antenna and target in the last ten minutes, and how far off the antenna was`}>
       <${Marks} name="left" of=${angle} /><svg viewBox=${`0 0 ${SECONDS} ${HIGH}`} preserveAspectRatio="none" aria-hidden="true">
-        ${angle.marks.map((mark) => html`<path class="grid" d=${`M0,${angle.y(mark)}H${SECONDS}`} />`)}${[1, 2, 3, 4].map((part) => html`<path class="grid" d=${`M${part * 120},0V${HIGH}`} />`)}
+        ${angle.marks.map((mark) => html`<path class="grid"
+          d=${`M0,${angle.y(mark)}H${SECONDS}`} />`)}${[1, 2, 3, 4].map((part) => html`<path class="grid"
+          d=${`M${part * 120},0V${HIGH}`} />`)}
         ${area && html`<path class="off" d=${`${area}L${SECONDS},${HIGH}L${SECONDS + past[0][0]},${HIGH}Z`} />`}
-        <path class="aim" d=${line(past, columns[1], angle)} /><path class="turned" d=${line(past, columns[0], angle)} /></svg><${Marks} name="right" of=${off} />
+        <path class="aim" d=${line(past, columns[1], angle)} /><path class="turned" d=${line(past, columns[0], angle)} /></svg>
+          <${Marks} name="right" of=${off} />
       <p aria-hidden="true"><span>−10 min</span><span>−5 min</span><span>now</span></p></div></section>`;
 }

@@ -33,7 +33,8 @@ function Releases({ now, paired, say }) {
       ${paired && (now.stopper || !tracks) && html`<${GoesOn} now=${now} say=${say} />`}</div>${!paired && html`<small>for a paired browser</small>`}`}`;
 }
 
-const stopped = (now) => now.stopper && (now.status.storm_park ? html`<p><b>Storm park by ${now.stopper}.</b> It goes to the park position and stays there; nothing else moves it until a person lets it.</p>`
+const stopped = (now) => now.stopper && (now.status.storm_park ? html`<p>
+  <b>Storm park by ${now.stopper}.</b> It goes to the park position and stays there; nothing else moves it until a person lets it.</p>`
   : html`<p><b>Stopped by ${now.stopper}.</b> Nothing moves until a person lets it; then programs that send orders move it, too.</p>`);
 
 function Runaway({ now, axis }) {

@@ -60,7 +60,9 @@ function Flies({ now, flight }) {
   const waits = flight.begins_in_s > 0, fast = flight.name.endsWith(FAST), lasts = flight.ends_in_s - flight.begins_in_s;
   return html`<section class="panel demo" aria-label="Demonstration">
     <p class="what"><b>${flight.name.split(MARK)[0]}</b>${" "}
-      ${waits ? html`rises in <b>${clock(flight.begins_in_s)}</b>: the antenna turns to where it rises` : html`is up for <b>${clock(Math.max(0, flight.ends_in_s))}</b> more${now.off_deg == null ? "" : html`, the antenna is off by <b>${now.off_deg.toFixed(1)}°</b>`}`}</p>
+      ${waits ? html`rises in <b>${clock(flight.begins_in_s)}</b>: the antenna turns to where it rises` : html`is up for <b>
+        ${clock(Math.max(0, flight.ends_in_s))}</b> more${now.off_deg == null ? "" : html`, the antenna is off by <b>
+        ${now.off_deg.toFixed(1)}°</b>`}`}</p>
     <progress max=${lasts} value=${waits ? 0 : Math.min(lasts, -flight.begins_in_s)} aria-label="Flown of the pass"></progress>
     <p class="about">${fast ? "Its path is ten times as fast as life; the rotor turns as fast as a real one. So the antenna stays some degrees behind: in life it is off by about two degrees." : "Path and rotor are as fast as in life."}</p>
   </section>`;
@@ -73,8 +75,10 @@ function Left({ pass, again, close }) {
     await navigator.share({ title: pass.name, files: [new File([picture], pass.file, { type: "image/svg+xml" })] }).catch(() => {});
   };
   return html`<section class="panel demo left" aria-label="Demonstration">
-    <p class="what" role="status"><b>${pass.name.split(MARK)[0]}</b> was flown: off by <b>${pass.rms_deg.toFixed(1)}°</b> rms${pass.relay_starts == null ? "" : html`, <b>${pass.relay_starts}</b> motor starts`}.</p>
-    <img src=${address} width="820" height="980" alt="The flown pass: on the sky the path of the ISS and of the antenna; below, how far the antenna was off, and each start of a motor" />
+    <p class="what" role="status"><b>${pass.name.split(MARK)[0]}</b> was flown: off by <b>
+      ${pass.rms_deg.toFixed(1)}°</b> rms${pass.relay_starts == null ? "" : html`, <b>${pass.relay_starts}</b> motor starts`}.</p>
+    <img src=${address} width="820" height="980"
+      alt="The flown pass: on the sky the path of the ISS and of the antenna; below, how far the antenna was off, and each start of a motor" />
     <${Keeps} file=${pass.file}>
       ${navigator.canShare && html`<button type="button" onClick=${send}>Send the picture</button>`}
       <button type="button" onClick=${again}>Fly it again</button>

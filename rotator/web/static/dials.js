@@ -29,7 +29,8 @@ export function AzimuthDial({ range, angle, target, drive }) {
       aria-label=${`Azimuth ${degrees(angle)}${over ? ", in the overlap" : ""}, range ${range.min_deg}° to ${range.max_deg}°`}>
     ${scale}
     ${target != null && html`<path class="mark" transform=${`rotate(${target})`} d="M0,-72 5,-60 -5,-60Z" />`}
-    ${angle != null && html`<g transform=${`rotate(${angle})`}><line class="needle" y1="-34" y2=${over ? -95 : -84} /><circle class="tip" cy=${over ? -95 : -84} r="5" /></g>`}
+    ${angle != null && html`<g transform=${`rotate(${angle})`}><line class="needle" y1="-34" y2=${over ? -95 : -84} /><circle
+      class="tip" cy=${over ? -95 : -84} r="5" /></g>`}
     <text class="what" y="-4">azimuth</text>
     <text class="turn" y="14"><${Turn} drive=${drive} names=${["CW ↻", "CCW ↺"]} />${!drive && over ? "overlap" : ""}</text>
   </svg>`;

@@ -20,7 +20,8 @@ function verdict(checks) {
 const ago = (seconds) => (seconds < 60 ? "just now" : `${Math.floor(seconds / 60)} min ago`);
 
 export function Doctor() {
-  const [told, setTold] = useState(null), [said, say] = useState(""), [busy, setBusy] = useState(false), [, tick] = useState(0), asking = useRef(null);
+  const [told, setTold] = useState(null), [said, say] = useState(""), [busy, setBusy] = useState(false), [, tick] = useState(0),
+    asking = useRef(null);
   const ask = () => {
     setBusy(true);
     read("doctor").then((found) => {

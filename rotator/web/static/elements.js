@@ -14,7 +14,8 @@ function Fetched({ one }) {
 }
 
 export function Elements({ now, paired, changed }) {
-  const [told, setTold] = useState(null), [said, say] = useState(""), [kept, keep] = useState(""), [sends, setSends] = useState(false), here = useRef(null);
+  const [told, setTold] = useState(null), [said, say] = useState(""), [kept, keep] = useState(""),
+    [sends, setSends] = useState(false), here = useRef(null);
   const load = () => read("elements").then(setTold, () => {});
   useEvery(EVERY_MS, load);
   useEffect(() => void (told && location.hash === "#sky/elements" && intoSight(here.current)), [!told]);
@@ -31,12 +32,17 @@ export function Elements({ now, paired, changed }) {
   const remove = (name) => act(post("elements/remove", { name }).then(() => (keep(`${name} is removed.`), after())), say);
   if (!told) return null;
   return html`<section class="log elements" ref=${here} aria-label="Elements"><h2>Elements of satellites</h2>
-    <p>${told.satellites === 1 ? `${told.satellites} satellite. Of each the newest set counts.` : told.satellites ? `${told.satellites} satellites. Of each the newest set counts.` : "No satellite is known yet."}${!told.files.length && !told.fetch.length && html` Send a file, or name an address to fetch from: <a href="#setup/8">Setup, step 8</a>.`}</p>
-    <ul>${told.files.map((file) => html`<li><b>${file.name}</b><span>${file.satellites === 1 ? `${file.satellites} satellite` : `${file.satellites} satellites`}${file.satellites ? `, ${days(file)}` : ""}</span>
+    <p>${told.satellites === 1 ? `${told.satellites} satellite. Of each the newest set counts.` : told.satellites ? `${told.satellites} satellites. Of each the newest set counts.` : "No satellite is known yet."}${!told.files.length && !told.fetch.length && html` Send a file, or name an address to fetch from: <a
+      href="#setup/8">Setup, step 8</a>.`}</p>
+    <ul>${told.files.map((file) => html`<li><b>${file.name}</b><span>
+      ${file.satellites === 1 ? `${file.satellites} satellite` : `${file.satellites} satellites`}${file.satellites ? `, ${days(file)}` : ""}</span>
         ${file.uploaded && paired && html`<button type="button" aria-label=${`Remove ${file.name}`} onClick=${() => remove(file.name)}>Remove</button>`}</li>`)}
       ${told.fetch.map((one) => html`<${Fetched} one=${one} />`)}</ul>
-    ${told.fetch.length > 0 && !now.clock_known && html`<p class="warning">The box has reached no time server: it fetches as soon as a person says that its time is right, in <a href="#setup/8">Setup, step 8</a>.</p>`}
+    ${told.fetch.length > 0 && !now.clock_known && html`<p
+      class="warning">The box has reached no time server: it fetches as soon as a person says that its time is right, in <a
+      href="#setup/8">Setup, step 8</a>.</p>`}
     ${told.faults.length > 0 && html`<ul class="notes">${told.faults.map((fault) => html`<li>${fault}</li>`)}</ul>`}
-    ${paired && html`<label class="file">Send a file: TLE, or OMM as JSON or CSV<input type="file" disabled=${sends} onChange=${take} accept=".tle,.txt,.json,.csv" /></label>`}
+    ${paired && html`<label class="file">Send a file: TLE, or OMM as JSON or CSV<input type="file" disabled=${sends}
+      onChange=${take} accept=".tle,.txt,.json,.csv" /></label>`}
     <p role="status">${sends && "It is sent and checked …"}</p><${Said} text=${said || kept} good=${!said} /></section>`;
 }

@@ -8,7 +8,8 @@ import { act, fitted, html, useState } from "/ui.js";
 function Doubt({ now, axis, say }) {
   if (!now.status[axis].relays_in_doubt) return null;
   return html`<p>The box could not see whether a relay of the ${axis} has opened. Turn it the same way again for a second, away from its stop; or look at both relays:</p>
-    <${Asks} label=${`Both relays of the ${axis} are open`} question=${`Have you seen that both relays of the ${axis} are open? A relay that sticks turns the antenna.`} yes="I have seen it"
+    <${Asks} label=${`Both relays of the ${axis} are open`}
+      question=${`Have you seen that both relays of the ${axis} are open? A relay that sticks turns the antenna.`} yes="I have seen it"
       onYes=${() => act(post("relays-checked", { axis }), say)} />`;
 }
 
@@ -18,7 +19,8 @@ function Homes({ now, axis, say }) {
   if (!state.homeable) return null;
   if (state.homing) return html`<p role="status">The ${axis} looks for its low end stop. STOP ends it.</p>`;
   const way = axis === "azimuth" ? "CCW" : "down";
-  return html`<${Asks} label=${`Home the ${axis}`} question=${`The motor turns ${way} to the end stop, a little back, and there again, whatever is in its way: watch the antenna. Home the ${axis}?`} yes="Home it"
+  return html`<${Asks} label=${`Home the ${axis}`}
+    question=${`The motor turns ${way} to the end stop, a little back, and there again, whatever is in its way: watch the antenna. Home the ${axis}?`} yes="Home it"
     onYes=${() => act(post("home", { axis }), say)} />`;
 }
 
@@ -36,5 +38,6 @@ function Confirms({ now, axis, say }) {
 }
 
 export function Errands({ now, say, axes = fitted(now.status) }) {
-  return axes.map((axis) => html`<${Doubt} now=${now} axis=${axis} say=${say} /><${Homes} now=${now} axis=${axis} say=${say} /><${Confirms} now=${now} axis=${axis} say=${say} />`);
+  return axes.map((axis) => html`<${Doubt} now=${now} axis=${axis} say=${say} /><${Homes} now=${now} axis=${axis} say=${say} />
+    <${Confirms} now=${now} axis=${axis} say=${say} />`);
 }

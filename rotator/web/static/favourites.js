@@ -44,7 +44,9 @@ function Edited({ one, place, list, grab, put }) {
   };
   return html`<li>
     <button type="button" class="handle" aria-label=${`${one.name}, place ${place + 1} of ${list.length}: drag, or move with the arrow keys`}
-      onPointerDown=${(event) => grab(event, place)} onKeyDown=${(event) => keyed(event, place, list.length, (to) => put(moved(list, place, to)))}><span aria-hidden="true">⠿</span></button>
+      onPointerDown=${(event) => grab(event, place)}
+        onKeyDown=${(event) => keyed(event, place, list.length, (to) => put(moved(list, place, to)))}><span
+        aria-hidden="true">⠿</span></button>
     <input aria-label=${`What ${one.name} points at`} maxlength="100" defaultValue=${one.target} onChange=${set("target")} />
     <input aria-label=${`Name of ${one.name}`} maxlength="30" defaultValue=${one.name} onChange=${set("name")} />
     <button type="button" aria-label=${`${one.name} up`} disabled=${place === 0} onClick=${() => put(moved(list, place, place - 1))}>▲</button>
@@ -53,7 +55,9 @@ function Edited({ one, place, list, grab, put }) {
 
 export function Favourites({ now, hello, station, say }) {
   const why = hindrance(now, hello);
-  const [list, setList] = useState([]), [edits, setEdits] = useState(false), [name, setName] = useState(""), [target, setTarget] = useState(""), [undo, setUndo] = useState(null), rows = useRef(null), changes = useRef(0), atBox = useRef([]), last = useRef(Promise.resolve());
+  const [list, setList] = useState([]), [edits, setEdits] = useState(false), [name, setName] = useState(""),
+    [target, setTarget] = useState(""), [undo, setUndo] = useState(null), rows = useRef(null), changes = useRef(0),
+    atBox = useRef([]), last = useRef(Promise.resolve());
   // An answer that a change of this browser has overtaken shows nothing.
   const took = (favourites, begun) => {
     atBox.current = favourites;
@@ -86,13 +90,17 @@ export function Favourites({ now, hello, station, say }) {
   const lost = (each) => !station.where && !direction(each.target) && !["park", "plan"].includes(each.target);
   const grab = (event, from) => drag(event, () => [...rows.current.children], list, from, setList, (order) => put(order));
   return html`<section class="favourites" aria-label="Favourites"><div class="chips">
-    ${!edits && list.map((each) => html`<button type="button" key=${each.name} class="favourite" disabled=${lost(each) || why !== ""} title=${why || (lost(each) ? "The box does not know where it stands" : each.target)}
+    ${!edits && list.map((each) => html`<button type="button" key=${each.name} class="favourite"
+      disabled=${lost(each) || why !== ""} title=${why || (lost(each) ? "The box does not know where it stands" : each.target)}
       aria-pressed=${now.status.tracks?.name.toLowerCase() === each.target.toLowerCase()} onClick=${() => act(press(each.target), say)}>${each.name}</button>`)}
     <button type="button" class="quiet" aria-expanded=${edits} onClick=${() => setEdits(!edits)}>${edits ? "Done" : "Edit favourites"}</button>
     ${edits && undo && html`<button type="button" class="quiet" onClick=${() => (put(undo), setUndo(null))}>Undo</button>`}</div>
     ${edits && html`<form class="fields" onSubmit=${add}>
-        <label>Satellite, place, direction or park<input required maxlength="100" placeholder="ISS, JO70fc, Japan, 143 5" value=${target} onInput=${(event) => setTarget(event.target.value)} /></label>
-        <label>Name of the button<input maxlength="30" placeholder=${target.trim() || "Prague"} value=${name} onInput=${(event) => setName(event.target.value)} /></label>
+        <label>Satellite, place, direction or park<input required maxlength="100" placeholder="ISS, JO70fc, Japan, 143 5"
+          value=${target} onInput=${(event) => setTarget(event.target.value)} /></label>
+        <label>Name of the button<input maxlength="30" placeholder=${target.trim() || "Prague"} value=${name}
+          onInput=${(event) => setName(event.target.value)} /></label>
         <button type="submit">Add</button></form>
-      <ol ref=${rows}>${list.map((one, place) => html`<${Edited} key=${`${one.name} ${one.target}`} one=${one} place=${place} list=${list} grab=${grab} put=${put} />`)}</ol>`}</section>`;
+      <ol ref=${rows}>${list.map((one, place) => html`<${Edited} key=${`${one.name} ${one.target}`} one=${one} place=${place}
+        list=${list} grab=${grab} put=${put} />`)}</ol>`}</section>`;
 }

@@ -36,20 +36,25 @@ export const plain = (text) => said(text ?? "").split("`").map((part, at) => (at
 
 function range({ kind, named, least, above, most, below, needed }) {
   if (named) return said(named);
-  const low = least != null ? `from ${least}` : above != null ? `above ${above}` : "", high = most != null ? `to ${most}` : below != null ? `below ${below}` : "";
+  const low = least != null ? `from ${least}` : above != null ? `above ${above}` : "",
+    high = most != null ? `to ${most}` : below != null ? `below ${below}` : "";
   return [kind === "whole" && "whole", low, high, kind === "numbers" && "numbers in brackets", kind === "texts" && "one a line", needed && "must be given"].filter(Boolean).map(said).join(" ");
 }
 
 /** `value`: the text in the field; `usual`: what counts where it is left out; `mistakes`: sentences of the loader. */
 export function Field({ id, of, value, usual, mistakes, changed, onInput, label }) {
-  const { key, kind, choices, unit, meaning, least, above } = of, hint = range(of), left = shown(kind, usual) === "" ? "not set" : `left out: ${shown(kind, usual)}`;
+  const { key, kind, choices, unit, meaning, least, above } = of, hint = range(of),
+    left = shown(kind, usual) === "" ? "not set" : `left out: ${shown(kind, usual)}`;
   const about = { id, "aria-describedby": `${id}-about`, "aria-invalid": mistakes.length > 0, onInput: (event) => onInput(event.target.value) };
   const options = kind === "yes" ? ["true", "false"] : choices;
   return html`<div class=${`field ${changed ? "changed" : ""}`}>
     <label for=${id}>${label ?? verbatim(key)}${unit && html` <small>(${unit})</small>`}</label>
-    ${options ? html`<select ...${about} value=${value}><option value="">${left}</option>${options.map((each) => html`<option value=${String(each)}>${verbatim(each)}</option>`)}</select>`
-      : kind === "texts" || kind === "numbers" ? html`<textarea ...${about} rows=${Math.min(8, value.split("\n").length + 1)} placeholder=${left.replaceAll("\n", " ")} spellcheck="false" value=${value}></textarea>`
-      : html`<input ...${about} inputmode=${kind === "number" || kind === "whole" ? keypad(least ?? above) : "text"} autocomplete="off" spellcheck="false" placeholder=${left} value=${value} />`}
+    ${options ? html`<select ...${about} value=${value}><option value="">${left}</option>${options.map((each) => html`<option
+      value=${String(each)}>${verbatim(each)}</option>`)}</select>`
+      : kind === "texts" || kind === "numbers" ? html`<textarea ...${about} rows=${Math.min(8, value.split("\n").length + 1)}
+        placeholder=${left.replaceAll("\n", " ")} spellcheck="false" value=${value}></textarea>`
+      : html`<input ...${about} inputmode=${kind === "number" || kind === "whole" ? keypad(least ?? above) : "text"}
+        autocomplete="off" spellcheck="false" placeholder=${left} value=${value} />`}
     <p class="about" id=${`${id}-about`}>${plain(meaning)}${hint && verbatim(` (${hint})`)}</p>
     ${mistakes.map((each) => html`<p class="mistake" role="alert">${each}</p>`)}</div>`;
 }

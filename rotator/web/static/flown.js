@@ -29,11 +29,19 @@ export function Flown({ tracked }) {
   const pictured = new Set(flown.slice(0, pictures).map((pass) => pass.file));
   return html`<section class="log flown"><h2>Passes flown</h2>
     ${!flown.length && html`<p>When the box has flown a pass that it knows, its picture is here.</p>`}
-    ${flown.length > 0 && html`<table><thead><tr><th>begin</th><th>target</th><th class="more">highest</th><th>off, rms</th><th class="more">95 % within</th><th>motor starts</th><th class="more">motors ran</th><th>faults</th><th><span class="only-read">what is kept</span></th></tr></thead>
-    ${weeks.map(([week, passes]) => html`<tbody key=${week}><tr class="week"><th scope="rowgroup" colspan="9">Week of ${week}: passes: ${passes.length}, motor starts: ${sum(passes, (pass) => pass.relay_starts)}, motors ran ${(sum(passes, (pass) => pass.motor_s) / 60).toFixed(0)} min, faults: ${sum(passes, (pass) => pass.faults?.length)}</th></tr>
-      ${passes.map((pass) => html`<tr key=${pass.file}><td>${time(pass.begin_utc_s)}</td><td><b>${pass.name}</b></td><td class="more">${figure(pass.max_el_deg, 0, "°")}</td><td data-label="off, rms ">${figure(pass.rms_deg, 1, "°")}</td>
-        <td class="more">${figure(pass.p95_deg, 1, "°")}</td><td data-label="motor starts ">${pass.relay_starts ?? ""}</td><td class="more">${figure(pass.motor_s, 0, " s")}</td><td class="error">${pass.faults?.join("; ")}</td>
-        <td class="kept">${pictured.has(pass.file) && html`<button type="button" aria-expanded=${shown === pass.file} aria-label=${`Picture of ${pass.name}, ${time(pass.begin_utc_s)}`} onClick=${() => show(shown === pass.file ? null : pass.file)}>Picture</button>`}</td></tr>
-      ${shown === pass.file && html`<tr><td class="picture" colspan="9"><img src=${`/api/flown/picture?file=${pass.file}`} alt=${`The sky with the path of ${pass.name} and of the antenna; below, how far the antenna was off, and each start of a motor: ${off(pass)}`} />
+    ${flown.length > 0 && html`<table><thead><tr><th>begin</th><th>target</th><th class="more">highest</th><th>off, rms</th><th
+      class="more">95 % within</th><th>motor starts</th><th class="more">motors ran</th><th>faults</th><th><span
+      class="only-read">what is kept</span></th></tr></thead>
+    ${weeks.map(([week, passes]) => html`<tbody key=${week}><tr class="week"><th scope="rowgroup"
+      colspan="9">Week of ${week}: passes: ${passes.length}, motor starts: ${sum(passes, (pass) => pass.relay_starts)}, motors ran ${(sum(passes, (pass) => pass.motor_s) / 60).toFixed(0)} min, faults: ${sum(passes, (pass) => pass.faults?.length)}</th></tr>
+      ${passes.map((pass) => html`<tr key=${pass.file}><td>${time(pass.begin_utc_s)}</td><td><b>${pass.name}</b></td><td
+        class="more">${figure(pass.max_el_deg, 0, "°")}</td><td data-label="off, rms ">${figure(pass.rms_deg, 1, "°")}</td>
+        <td class="more">${figure(pass.p95_deg, 1, "°")}</td><td data-label="motor starts ">${pass.relay_starts ?? ""}</td><td
+          class="more">${figure(pass.motor_s, 0, " s")}</td><td class="error">${pass.faults?.join("; ")}</td>
+        <td class="kept">${pictured.has(pass.file) && html`<button type="button" aria-expanded=${shown === pass.file}
+          aria-label=${`Picture of ${pass.name}, ${time(pass.begin_utc_s)}`}
+          onClick=${() => show(shown === pass.file ? null : pass.file)}>Picture</button>`}</td></tr>
+      ${shown === pass.file && html`<tr><td class="picture" colspan="9"><img src=${`/api/flown/picture?file=${pass.file}`}
+        alt=${`The sky with the path of ${pass.name} and of the antenna; below, how far the antenna was off, and each start of a motor: ${off(pass)}`} />
         <${Keeps} file=${pass.file} /></td></tr>`}`)}</tbody>`)}</table>`}</section>`;
 }

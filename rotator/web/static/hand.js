@@ -45,7 +45,8 @@ export function JogPad({ station, live, say, axes = fitted(station) }) {
     return () => (RELEASES.forEach((release) => removeEventListener(release, leave)), leave());
   }, []);
   return html`<div class="jogpad" role="group" aria-label="Turn by hand, while a button is held">
-    ${TURNS.filter(([, , , axis]) => axes.includes(axis)).map(([turn, name, arrow]) => html`<${HeldButton} key=${turn} live=${live} turn=${turn} name=${name} arrow=${arrow} say=${say} />`)}
+    ${TURNS.filter(([, , , axis]) => axes.includes(axis)).map(([turn, name, arrow]) => html`<${HeldButton} key=${turn}
+      live=${live} turn=${turn} name=${name} arrow=${arrow} say=${say} />`)}
     <p class="hint">hold</p></div>`;
 }
 
@@ -67,18 +68,22 @@ export function Target({ station, draft, setDraft, say }) {
   };
   return html`<form class="aim" onSubmit=${point}>
     <div class="fields">
-      ${station.azimuth.fitted && html`<${NumberField} label="Azimuth" required least=${station.azimuth.min_deg} value=${az} onInput=${(text) => setDraft([text, el])} />`}
-      ${station.elevation.fitted && html`<${NumberField} label="Elevation" required least=${station.elevation.min_deg} value=${el} onInput=${(text) => setDraft([az, text])} />`}
+      ${station.azimuth.fitted && html`<${NumberField} label="Azimuth" required least=${station.azimuth.min_deg} value=${az}
+        onInput=${(text) => setDraft([text, el])} />`}
+      ${station.elevation.fitted && html`<${NumberField} label="Elevation" required least=${station.elevation.min_deg}
+        value=${el} onInput=${(text) => setDraft([az, text])} />`}
       <button type="submit" class="go">Point there</button>
     </div>
-    ${there && html`<button type="button" class="quiet" onClick=${() => act(keep(shown(there), there.join(" ")), say)}>Keep ${shown(there)} as a favourite</button>`}
+    ${there && html`<button type="button" class="quiet"
+      onClick=${() => act(keep(shown(there), there.join(" ")), say)}>Keep ${shown(there)} as a favourite</button>`}
   </form>`;
 }
 
 /** A direction that was pressed on the sky: the next step stands there, too. */
 export function ThereFromSky({ station, draft, say }) {
   const there = directionOf(draft);
-  return there && html`<p><button type="button" class="go" onClick=${() => pointAt(there, say)}>Point to ${station.elevation.fitted ? `${there[0]}°, ${there[1]}°` : `${there[0]}°`}</button></p>`;
+  return there && html`<p><button type="button" class="go"
+    onClick=${() => pointAt(there, say)}>Point to ${station.elevation.fitted ? `${there[0]}°, ${there[1]}°` : `${there[0]}°`}</button></p>`;
 }
 
 /** What became of the latest request, where the status does not show it; empty: nothing to say. */
@@ -111,7 +116,8 @@ export function Track({ now, known, say }) {
     <label>Track<input required maxlength="100" placeholder=${known ? "ISS, Moon, JN58td, Japan, VK" : "180 45"} value=${name}
       onInput=${(event) => setName(event.target.value)} /></label>
     <button type="submit">${place ? `Short path ${Math.round(place.azimuth_deg) % 360}°` : "Track"}</button>
-    ${place && html`<button type="button" onClick=${() => act(post("track", { target: `${name.trim()} long` }), say)}>Long path ${Math.round(place.azimuth_deg + 180) % 360}°</button>
+    ${place && html`<button type="button"
+      onClick=${() => act(post("track", { target: `${name.trim()} long` }), say)}>Long path ${Math.round(place.azimuth_deg + 180) % 360}°</button>
       <span class="hint-line">${place.place[0].toUpperCase()}${place.place.slice(1)}, ${place.km} km</span>`}
     ${tracks && html`<button type="button" onClick=${() => act(post("track", { target: "off" }), say)}>End ${tracks.name}</button>`}
     ${!known && html`<p class="hint-line">Directions alone, because the box does not know where it stands: <a href="#setup">tell it</a>.</p>`}

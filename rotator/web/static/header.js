@@ -16,8 +16,10 @@ export function Header({ wiring }) {
       ${PINS.map((what, at) => {
         const left = at % 2 === 0, y = 14 + Math.floor(at / 2) * ROW, name = used[what], gpio = typeof what === "number";
         return html`<g class=${name ? "used" : what === "GND" ? "ground" : ""}>
-          <circle cx=${left ? 198 : 222} cy=${y} r="5" /><text class="pin" x=${left ? 187 : 233} y=${y + 3} text-anchor=${left ? "end" : "start"}>${at + 1}</text>
-          ${(name || !gpio) && html`<text x=${left ? 168 : 252} y=${y + 3.5} text-anchor=${left ? "end" : "start"}>${name ? (name.includes(".") ? `${name} = ${what}` : name) : what}</text>`}</g>`;
+          <circle cx=${left ? 198 : 222} cy=${y} r="5" /><text class="pin" x=${left ? 187 : 233} y=${y + 3}
+            text-anchor=${left ? "end" : "start"}>${at + 1}</text>
+          ${(name || !gpio) && html`<text x=${left ? 168 : 252} y=${y + 3.5} text-anchor=${left ? "end" : "start"}>
+            ${name ? (name.includes(".") ? `${name} = ${what}` : name) : what}</text>`}</g>`;
       })}</svg>
     <figcaption><span>Pin 1 is at the corner of the card's slot.</span>${away.map(({ gpio, key }) => html`<span>${key}: GPIO ${gpio}</span>`)}</figcaption>
     <ul>${wiring.chips.map(({ name, bus, address }) => html`<li>${name}: I2C bus ${bus}, address 0x${address.toString(16).padStart(2, "0")}</li>`)}

@@ -14,7 +14,8 @@ export const helps = (view) => view in VIEWS;
 export function Help({ view, now, hello, onPaired }) {
   const open = view === "doctor" || hello.paired;
   return html`<main class="help">
-    <nav aria-label="Help">${Object.entries(VIEWS).map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash ? "page" : null}>${name}</a>`)}</nav>
+    <nav aria-label="Help">${Object.entries(VIEWS).map(([hash, name]) => html`<a href=${`#${hash}`}
+      aria-current=${view === hash ? "page" : null}>${name}</a>`)}</nav>
     ${!open && html`<${Pair} onPaired=${onPaired} />`}
     ${view === "doctor" && html`<${Doctor} />`}
     ${open && view === "wires" && html`<${Wires} hello=${hello} links=${now.links} />`}

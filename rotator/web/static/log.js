@@ -28,7 +28,8 @@ function save(text) {
 }
 
 export function Log() {
-  const [lines, setLines] = useState([]), [words, setWords] = useState(""), [rank, setRank] = useState("note"), [said, say] = useState(""), [copied, setCopied] = useState("");
+  const [lines, setLines] = useState([]), [words, setWords] = useState(""), [rank, setRank] = useState("note"),
+    [said, say] = useState(""), [copied, setCopied] = useState("");
   useEvery(EVERY_MS, () => read("log").then((told) => (setLines(told.lines), say("")), (fault) => say(fault.message)));
   const order = Object.keys(RANKS), wanted = words.toLowerCase();
   const shown = lines.filter((line) => order.indexOf(line.rank) >= order.indexOf(rank) && line.text.toLowerCase().includes(wanted));

@@ -61,7 +61,9 @@ export function Notices({ now, shown }) {
   return html`<aside class="panel notices" aria-label="Notices and calendar">
     <h2>Notices and calendar</h2>
     <p>${SAYS[state]}</p>
-    ${(state === "on" || state === "off") && html`<button type="button" role="switch" aria-checked=${state === "on"} onClick=${change}>Notices in this browser: ${state === "on" ? "on" : "off"}</button>`}
-    <p>The plan as a calendar: <a href=${`webcal://${location.host}/api/passes.ics`}>subscribe to it</a>, or <a href="/api/passes.ics" download="passes.ics">keep it as a file</a>.</p>
+    ${(state === "on" || state === "off") && html`<button type="button" role="switch" aria-checked=${state === "on"}
+      onClick=${change}>Notices in this browser: ${state === "on" ? "on" : "off"}</button>`}
+    <p>The plan as a calendar: <a href=${`webcal://${location.host}/api/passes.ics`}>subscribe to it</a>, or <a
+      href="/api/passes.ics" download="passes.ics">keep it as a file</a>.</p>
   </aside>`;
 }

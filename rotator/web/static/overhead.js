@@ -77,7 +77,8 @@ function labels(shown, px, kept, written) {
     const sides = [["start", x + off, y], ["end", x - off, y], ["middle", x, y - off - high / 2], ["middle", x, y + off + high / 2]];
     const order = [kept.get(key(one)) ?? 0, 0, 1, 2, 3];
     const side = order.find((each) => {
-      const [anchor, at, middle] = sides[each], here = around(anchor === "start" ? at + wide / 2 : anchor === "end" ? at - wide / 2 : at, middle, wide), [left] = here;
+      const [anchor, at, middle] = sides[each],
+        here = around(anchor === "start" ? at + wide / 2 : anchor === "end" ? at - wide / 2 : at, middle, wide), [left] = here;
       const furthest = Math.hypot(Math.max(-left, left + wide), Math.max(Math.abs(here[1]), Math.abs(here[3])));
       if (furthest > EDGE || taken.some((other) => meets(here, other)) || dots.some((dot) => meets(here, dot))) return false;
       taken.push(here);
@@ -106,7 +107,8 @@ function Arc({ one, at, px }) {
   for (let s = Math.ceil((rises ?? at) / 60) * 60; sets && sets - rises < 2400 && s < sets; s += 60) minutes.push(where(one, s));
   return html`<g class="arc"><polyline class="gone" points=${polyline([...gone, here])} /><polyline points=${polyline([here, ...left])} />
     ${minutes.map((way) => way && html`<circle cx=${way[0]} cy=${way[1]} r=${1.6 * px} />`)}
-    ${marks(one, at, px).map(({ x, y, textX, textY, text }) => html`<g><circle cx=${x} cy=${y} r=${3 * px} /><text class="when" x=${textX} y=${textY}>${text}</text></g>`)}</g>`;
+    ${marks(one, at, px).map(({ x, y, textX, textY, text }) => html`<g><circle cx=${x} cy=${y} r=${3 * px} /><text class="when"
+      x=${textX} y=${textY}>${text}</text></g>`)}</g>`;
 }
 
 /** All that is up, drawn for the scale of the picture. `chosen` and `tracked`: keys; `favourites`: what they track. */
@@ -124,11 +126,16 @@ export function Flying({ sky, px, chosen, tracked, favourites = [] }) {
     const choice = sky.up.find((one) => key(one) === chosen);
     return html`<g class="flying">
       ${choice && html`<${Arc} one=${choice} at=${at} px=${px} />`}
-      ${[...shown].reverse().map(({ one, x, y, mine, flown, counts }) => html`<g key=${key(one)} class=${`up ${one.rank || "other"} ${mine ? "mine" : ""} ${flown ? "flown" : ""}`}>
-        ${one.rank === "body" ? html`<g class=${one.name.toLowerCase()} transform=${`translate(${x.toFixed(2)},${y.toFixed(2)})`}><circle class="glow" r=${18 * px} /><circle class="disc" r=${8 * px} /></g>`
-          : html`${(counts || shown.length < 120) && html`<polyline class="tail" points=${polyline([3, 2, 1, 0].map((part) => where(one, at - (part * TAIL_S) / 3)))} />`}
+      ${[...shown].reverse().map(({ one, x, y, mine, flown, counts }) => html`<g key=${key(one)}
+        class=${`up ${one.rank || "other"} ${mine ? "mine" : ""} ${flown ? "flown" : ""}`}>
+        ${one.rank === "body" ? html`<g class=${one.name.toLowerCase()}
+          transform=${`translate(${x.toFixed(2)},${y.toFixed(2)})`}><circle class="glow" r=${18 * px} /><circle class="disc" r=${8 * px} /></g>`
+          : html`${(counts || shown.length < 120) && html`<polyline class="tail"
+            points=${polyline([3, 2, 1, 0].map((part) => where(one, at - (part * TAIL_S) / 3)))} />`}
           <circle cx=${x.toFixed(2)} cy=${y.toFixed(2)} r=${(counts ? 4.2 : 2.4) * px} />`}<title>${one.name}</title></g>`)}
-      ${labels(shown, px, kept.current, [...HEIGHTS, ...(choice ? marks(choice, at, px) : [])]).map(([one, anchor, x, y]) => html`<text key=${`name ${key(one)}`} class=${`name ${one.rank || "other"} ${key(one) === chosen ? "mine" : ""}`} text-anchor=${anchor} x=${x.toFixed(2)} y=${y.toFixed(2)}>${one.short}</text>`)}
+      ${labels(shown, px, kept.current, [...HEIGHTS, ...(choice ? marks(choice, at, px) : [])]).map(([one, anchor, x, y]) => html`<text
+        key=${`name ${key(one)}`} class=${`name ${one.rank || "other"} ${key(one) === chosen ? "mine" : ""}`}
+        text-anchor=${anchor} x=${x.toFixed(2)} y=${y.toFixed(2)}>${one.short}</text>`)}
     </g>`;
   }, [tick, sky, px, chosen, tracked, favourites]);
 }
@@ -158,7 +165,9 @@ export function Chosen({ one, now, hello, say, onClose }) {
     <button type="button" class="close quiet" aria-label=${`Close ${one.name}`} onClick=${onClose}>×</button>
     <dl>${facts(one, at).map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
       ${way && html`<div><dt>azimuth, elevation</dt><dd>${az.toFixed(0)}° / ${el.toFixed(0)}°</dd></div>`}</dl>
-    ${hello.paired ? html`<${Orders} now=${now} hello=${hello}><p>${tracks ? html`<button type="button" onClick=${() => track("off")}>End ${one.short}</button>` : html`<button type="button" class="go" onClick=${() => track(String(key(one)))}>Track<span class="only-read"> ${one.name}</span></button>`}</p><//>`
+    ${hello.paired ? html`<${Orders} now=${now} hello=${hello}><p>${tracks ? html`<button type="button"
+      onClick=${() => track("off")}>End ${one.short}</button>` : html`<button type="button" class="go"
+      onClick=${() => track(String(key(one)))}>Track<span class="only-read"> ${one.name}</span></button>`}</p><//>`
       : html`<p class="hint-line">A paired browser can track it.</p>`}
     ${said && html`<p class="hint-line">${said}</p>`}</section>`;
 }
@@ -170,9 +179,15 @@ export function UpNow({ sky, fault, known, clockKnown, chosen, choose }) {
     .sort(([one, way], [other, that]) => !way - !that || !one.rank - !other.rank || one.aos_s - other.aos_s), [sky, at]);
   const up = rows.filter(([, way]) => way).length;
   return html`<section class="upnow" aria-label="Up now"><h2>${sky ? `${up} up now` : "Up now"}</h2>
-    ${!known ? html`<p>The box does not know where it stands: <a href="#setup">tell it</a>.</p>` : fault ? html`<p>${fault}</p>` : !sky && html`<p role="status">The box computes the sky …</p>`}
-    ${sky && !sky.satellites && html`<p>${!sky.unfetched ? html`${`${sky.why_none}.`} <a href="#setup/8">Setup, step 8</a>` : clockKnown ? html`No satellites are known yet: <a href="#sky/elements">why, and how to send a file</a>` : html`${"The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:"} <a href="#setup/8">Setup, step 8</a>`}</p>`}
-    <ul>${rows.slice(0, ROWS).map(([one, way]) => html`<li key=${key(one)}><button type="button" class=${way ? one.rank || "other" : "soon"} aria-pressed=${key(one) === chosen} onClick=${() => choose(key(one))}>
-      <b>${one.short}</b><span>${way ? `${Math.round(wayAt(way)[1])}° ${POINTS[Math.round(wayAt(way)[0] / 45) % 8]}` : `in ${span(one.aos_s - at)}`}</span></button></li>`)}</ul>
+    ${!known ? html`<p>The box does not know where it stands: <a href="#setup">tell it</a>.</p>` : fault ? html`<p>${fault}
+      </p>` : !sky && html`<p role="status">The box computes the sky …</p>`}
+    ${sky && !sky.satellites && html`<p>${!sky.unfetched ? html`${`${sky.why_none}.`} <a
+      href="#setup/8">Setup, step 8</a>` : clockKnown ? html`No satellites are known yet: <a
+      href="#sky/elements">why, and how to send a file</a>` : html`${"The box has reached no time server. It fetches no elements, and tracks nothing with a real rotor, before a person says that its time is right:"} <a
+      href="#setup/8">Setup, step 8</a>`}</p>`}
+    <ul>${rows.slice(0, ROWS).map(([one, way]) => html`<li key=${key(one)}><button type="button"
+      class=${way ? one.rank || "other" : "soon"} aria-pressed=${key(one) === chosen} onClick=${() => choose(key(one))}>
+      <b>${one.short}</b><span>${way ? `${Math.round(wayAt(way)[1])}° ${POINTS[Math.round(wayAt(way)[0] / 45) % 8]}` : `in ${span(one.aos_s - at)}`}
+        </span></button></li>`)}</ul>
     ${rows.length > ROWS && html`<p class="hint-line">and ${rows.length - ROWS + sky.left_out} more on the sky</p>`}</section>`;
 }

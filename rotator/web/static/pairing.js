@@ -11,7 +11,8 @@ function guess() {
 
 /** `locked`: the box shows itself to paired browsers alone. */
 export function Pair({ onPaired, locked }) {
-  const [open, setOpen] = useState(false), [code, setCode] = useState(""), [name, setName] = useState(guess), [said, say] = useState(""), form = useRef(null), typed = useRef(null);
+  const [open, setOpen] = useState(false), [code, setCode] = useState(""), [name, setName] = useState(guess),
+    [said, say] = useState(""), form = useRef(null), typed = useRef(null);
   const begin = () => act(post("pair/begin").then(() => setOpen(true)), say);
   // The whole form comes into sight, with the field for the code ready.
   useEffect(() => void (open && (intoSight(form.current), typed.current.focus({ preventScroll: true }))), [open]);
@@ -25,7 +26,8 @@ export function Pair({ onPaired, locked }) {
     ${!open && html`<button type="button" class="go" onClick=${begin}>Pair this browser</button>`}
     ${open && html`<form onSubmit=${enter} ref=${form}>
       <p>The box shows six digits on its display for two minutes. Without a display: <code>${command} pair</code></p>
-      <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}" title="Six digits" required value=${code} ref=${typed}
+      <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}"
+        title="Six digits" required value=${code} ref=${typed}
         aria-invalid=${said !== ""} aria-describedby="pair-said" onInput=${(event) => setCode(event.target.value)} /></label>
       <${Said} id="pair-said" text=${said} />
       <label>Name<input required maxlength="40" value=${name} onInput=${(event) => setName(event.target.value)} /></label>

@@ -23,10 +23,13 @@ export function Headline({ now, hello, next }) {
         <dd class="to">${now[`${axis}_target_deg`] != null ? `aim ${degrees(now[`${axis}_target_deg`])}` : " "}</dd></div>`)}
     </dl>
     <p class="facts">
-      ${hello.box.calibrates ? html`<span>a calibration runs: <a href="#setup">go on with it</a></span>` : azimuth.missing.length + elevation.missing.length > 0 && html`<span>a new box begins with <a href="#setup">Setup</a></span>`}
+      ${hello.box.calibrates ? html`<span>a calibration runs: <a href="#setup">go on with it</a>
+        </span>` : azimuth.missing.length + elevation.missing.length > 0 && html`<span>a new box begins with <a
+        href="#setup">Setup</a></span>`}
       ${now.off_deg != null && html`<span>off by <b>${now.off_deg.toFixed(1)}°</b></span>`}
       ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
-      ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
+      ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}
+        </b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
       ${who && html`<span>moved by <b>${who}</b></span>`}
       ${tracks && now.starts != null && now.off_deg != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
     </p>
@@ -65,7 +68,8 @@ export function Mode({ now, hello, paired, say }) {
   const { panel_mode: mode, mode_by: source } = now.status, who = source === hello.source ? "this browser" : now.mode_by || "the panel";
   const told = `${MODES[mode][1](who, holderOf(now, hello))}${mode === "auto" || !source ? "" : ` Set by ${who}.`}`;
   if (now.mode_switch || !paired) return html`<p class="mode">Mode <b>${MODES[mode][0]}</b>: ${told}</p>`;
-  return html`<div class="mode"><div class="choice" role="group" aria-label="Mode">${Object.entries(MODES).map(([each, [name]]) => html`<button type="button" aria-label=${`Mode ${name}`}
+  return html`<div class="mode"><div class="choice" role="group" aria-label="Mode">
+    ${Object.entries(MODES).map(([each, [name]]) => html`<button type="button" aria-label=${`Mode ${name}`}
       aria-pressed=${mode === each} onClick=${() => act(post("mode", { mode: each }), say)}>${name}</button>`)}</div><p>${told}</p></div>`;
 }
 
@@ -97,7 +101,8 @@ const LAMPS = { azimuth: [["ccw", "CCW"], ["cw", "CW"]], elevation: [["down", "D
 
 /** `again`: a second time, where a narrow screen shows the front of the box further down. */
 function Lamps({ now, again }) {
-  return html`<ul class=${`lamps ${again ? "again" : ""}`} aria-label="Relays" aria-hidden=${again ? "true" : null}>${fitted(now.status).flatMap((axis) => LAMPS[axis]).map(([lamp, name]) => html`<li class=${now.lamps[lamp]}>
+  return html`<ul class=${`lamps ${again ? "again" : ""}`} aria-label="Relays" aria-hidden=${again ? "true" : null}>
+    ${fitted(now.status).flatMap((axis) => LAMPS[axis]).map(([lamp, name]) => html`<li class=${now.lamps[lamp]}>
     <i aria-hidden="true"></i>${name}<span class="only-read"> relay ${now.lamps[lamp]}</span></li>`)}</ul>`;
 }
 
@@ -111,5 +116,6 @@ export function Links({ now, station }) {
   return html`<section class="links"><h2>Links</h2><ul>
     ${now.links.map((link) => html`<li class=${link.out ? "out" : ""}><b>${link.name}</b> <span>${link.where}</span>
       <span class="state">${link.state}</span>${link.heard && html`<code>${link.heard}</code>`}</li>`)}
-    ${!now.links.length && (station.calibrates ? html`<li>a calibration runs: it keeps programs away</li>` : html`<li>The file has no [[link]]: no program can connect. <a href="#setup/9">Setup, step 9</a></li>`)}</ul></section>`;
+    ${!now.links.length && (station.calibrates ? html`<li>a calibration runs: it keeps programs away</li>` : html`<li>The file has no [[link]]: no program can connect. <a
+      href="#setup/9">Setup, step 9</a></li>`)}</ul></section>`;
 }

@@ -37,7 +37,8 @@ function phonePoints({ alpha, beta, gamma, absolute, webkitCompassHeading: headi
   // Safari tells the heading of the upper edge, and alpha from anywhere.
   if (heading != null) return [around(heading + turned), beta > UPRIGHT_DEG ? beta - 90 : beta];
   if (alpha == null || !absolute) return null;
-  const [sa, sb, sg] = [alpha, beta, gamma].map((each) => Math.sin(rad(each))), [ca, cb, cg] = [alpha, beta, gamma].map((each) => Math.cos(rad(each)));
+  const [sa, sb, sg] = [alpha, beta, gamma].map((each) => Math.sin(rad(each))),
+    [ca, cb, cg] = [alpha, beta, gamma].map((each) => Math.cos(rad(each)));
   const right = [ca * cg - sa * sb * sg, sa * cg + ca * sb * sg, -cb * sg], top = [-sa * cb, ca * cb, sb];
   const edge = top.map((each, axis) => each * Math.cos(rad(turned)) + right[axis] * Math.sin(rad(turned)));
   const back = [-(ca * sg + sa * sb * cg), -(sa * sg - ca * sb * cg), -cb * cg];
@@ -99,8 +100,10 @@ function Compass({ now, beamDeg, phone }) {
   return html`<svg viewBox="-122 -122 244 244" role="img" aria-label=${`Compass. ${told.filter(Boolean).join("; ")}`}>
     <g transform=${`rotate(${-up})`}>
       <circle r="100" class="rim" />
-      ${[...Array(36).keys()].map((step) => html`<line class="tick" x1=${at(step * 10, step % 3 ? 94 : 88)[0]} y1=${at(step * 10, step % 3 ? 94 : 88)[1]} x2=${at(step * 10, 100)[0]} y2=${at(step * 10, 100)[1]} />`)}
-      ${[..."NESW"].map((name, quarter) => html`<g transform=${`translate(${at(quarter * 90, 111)}) rotate(${up})`}><text class="letter" y="5">${name}</text></g>`)}
+      ${[...Array(36).keys()].map((step) => html`<line
+        class="tick" x1=${at(step * 10, step % 3 ? 94 : 88)[0]} y1=${at(step * 10, step % 3 ? 94 : 88)[1]} x2=${at(step * 10, 100)[0]} y2=${at(step * 10, 100)[1]} />`)}
+      ${[..."NESW"].map((name, quarter) => html`<g transform=${`translate(${at(quarter * 90, 111)}) rotate(${up})`}><text
+        class="letter" y="5">${name}</text></g>`)}
       ${antenna && html`<path class="beam" d=${`M0,0 L${at(antenna[0] - half, 88)} A88,88 0 0 1 ${at(antenna[0] + half, 88)}Z`} />
         <g transform=${`rotate(${antenna[0]})`}><line class="needle" y2="-84" /><circle class="antenna" cy="-84" r="7" /></g>`}
       ${target && html`<g transform=${`rotate(${target[0]})`}><path class="target" d="M0,-100 11,-80 0,-60 -11,-80Z" /></g>`}
@@ -127,10 +130,12 @@ function Nudge({ now, paired, say }) {
   const press = (axis, by, [arrow, name]) => html`<button type="button" disabled=${!paired || idle} aria-label=${`Nudge ${axis} by ${STEP_DEG}° ${name}`}
     onClick=${() => step(axis, by)}>${arrow}<small>${STEP_DEG}°</small></button>`;
   return html`<section class="nudge" aria-label="Nudge">
-    ${axes.map((axis) => html`<div>${press(axis, -STEP_DEG, names[axis])}<p class=${shift[axis] ? "set" : ""}><small>${axis}</small><b>${signed(shift[axis])}</b></p>
+    ${axes.map((axis) => html`<div>${press(axis, -STEP_DEG, names[axis])}<p class=${shift[axis] ? "set" : ""}><small>${axis}
+      </small><b>${signed(shift[axis])}</b></p>
       ${press(axis, STEP_DEG, names[axis].slice(2))}</div>`)}
     ${axes.some((axis) => shift[axis]) ? html`<button type="button" onClick=${() => axes.forEach((axis) => shift[axis] && set(axis, 0))}>End the nudge</button>`
-      : html`<p>${!paired ? html`Only a paired browser can nudge: <a href="#">pair this one</a>.` : idle ? "Nothing is tracked, so there is nothing to nudge." : "A nudge rides on the tracking, and ends with the pass."}</p>`}
+      : html`<p>${!paired ? html`Only a paired browser can nudge: <a
+        href="#">pair this one</a>.` : idle ? "Nothing is tracked, so there is nothing to nudge." : "A nudge rides on the tracking, and ends with the pass."}</p>`}
   </section>`;
 }
 
@@ -139,12 +144,14 @@ function until(now, next) {
   const { tracks } = now.status;
   if (tracks) return [tracks.name, now.rise_or_set];
   if (!next?.name) return ["Nothing is tracked", ""];
-  const left = Math.max(0, Math.round((new Date(next.aos) - boxTime()) / 1000)), minutes = Math.floor(left / 60), two = (count) => String(count).padStart(2, "0");
+  const left = Math.max(0, Math.round((new Date(next.aos) - boxTime()) / 1000)), minutes = Math.floor(left / 60),
+    two = (count) => String(count).padStart(2, "0");
   return [verbatim(`${said("next")}: ${next.name}`), minutes < 60 ? `AOS ${minutes}:${two(left % 60)}` : `AOS ${Math.floor(minutes / 60)}h${two(minutes % 60)}`];
 }
 
 export function PassMode({ now, station, hello, fresh, say }) {
-  const [look, setLook] = useState(() => kept("pass-look", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "bright")), [next, setNext] = useState(null);
+  const [look, setLook] = useState(() => kept("pass-look", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "bright")),
+    [next, setNext] = useState(null);
   useEvery(NEXT_MS, async () => document.hidden || setNext(await read("next")));
   const compass = useCompass(), awake = useAwake(), [name, told] = until(now, next), [time, ...more] = told.split(", "), phone = compass.points;
   const choose = (each) => {
@@ -157,11 +164,14 @@ export function PassMode({ now, station, hello, fresh, say }) {
   return html`<main class=${`passmode ${look}`}>
     <div class="bar"><a href="#">Leave</a>
       ${now.status.simulated && html`<strong class="sim">SIM</strong>`}
-      <div class="choice" role="group" aria-label="Light">${LOOKS.map(([each, label]) => html`<button type="button" aria-pressed=${look === each} onClick=${() => choose(each)}>${label}</button>`)}</div></div>
+      <div class="choice" role="group" aria-label="Light">${LOOKS.map(([each, label]) => html`<button type="button"
+        aria-pressed=${look === each} onClick=${() => choose(each)}>${label}</button>`)}</div></div>
     <div class="until"><h1>${name}</h1><b>${time}</b>${more.length > 0 && html`<small>${more.join(", ")}</small>`}
-      ${hello.paired && !now.status.tracks && next?.name && hindrance(now, hello) === "" && html`<button type="button" class="go" onClick=${() => act(post("track", { target: next.name }), say)}>Track ${next.name}</button>`}</div>
+      ${hello.paired && !now.status.tracks && next?.name && hindrance(now, hello) === "" && html`<button type="button"
+        class="go" onClick=${() => act(post("track", { target: next.name }), say)}>Track ${next.name}</button>`}</div>
     <${Compass} now=${now} beamDeg=${station.beam_deg} phone=${phone} />
-    <dl class=${fresh ? "" : "old"}><div class="of-antenna"><dt>antenna</dt><dd>${way(now.antenna)}</dd></div><div class="of-target"><dt>target</dt><dd>${way(now.target)}</dd></div>
+    <dl class=${fresh ? "" : "old"}><div class="of-antenna"><dt>antenna</dt><dd>${way(now.antenna)}</dd></div><div
+      class="of-target"><dt>target</dt><dd>${way(now.target)}</dd></div>
       <div><dt>off by</dt><dd>${now.off_deg == null ? "---" : degrees(now.off_deg)}</dd></div>
       ${phone && html`<div><dt>phone</dt><dd>${way(phone)}</dd></div>`}</dl>
     <${Nudge} now=${now} paired=${hello.paired} say=${say} />

@@ -30,8 +30,10 @@ function Row({ pass, now, paired, tracked, track, beam }) {
     <td class="figure wide">${sets ? (up ? `${until(sets - now)} more` : until(sets - rises)) : "does not set"}</td>
     <td class="figure">${round(pass.max_el_deg)}</td>
     <td class="figure wide">${round(pass.aos_az_deg)} → ${round(pass.los_az_deg)}</td>
-    <td class=${`figure ${pass.expected_error_deg > beam / 2 ? "warning" : ""}`}>${pass.expected_error_deg == null ? "" : `${pass.expected_error_deg.toFixed(1)}°`}</td>
-    <td>${paired && html`<button type="button" aria-pressed=${tracked} onClick=${() => track(pass.name)} aria-label=${`Track ${pass.name}`}>${tracked ? "tracked" : "Track"}</button>`}</td></tr>`;
+    <td class=${`figure ${pass.expected_error_deg > beam / 2 ? "warning" : ""}`}>
+      ${pass.expected_error_deg == null ? "" : `${pass.expected_error_deg.toFixed(1)}°`}</td>
+    <td>${paired && html`<button type="button" aria-pressed=${tracked} onClick=${() => track(pass.name)}
+      aria-label=${`Track ${pass.name}`}>${tracked ? "tracked" : "Track"}</button>`}</td></tr>`;
 }
 
 export function Passes({ now: box, station, hello, say }) {
@@ -49,9 +51,12 @@ export function Passes({ now: box, station, hello, say }) {
   };
   const shown = (passes ?? []).filter((pass) => pass.max_el_deg >= (number(leastDeg) ?? 0) && !(pass.los && new Date(pass.los) < now));
   return html`<div class="views"><section class="log"><h2>Track</h2>
-    <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking.split(":")[0]] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}</p>
+    <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}
+      </b>` : STATES[box.tracking.split(":")[0]] ?? `Tracking has ${box.tracking}`}</span>
+      ${tracks && html`, ${box.rise_or_set}`}</p>
     ${paired && html`<${Orders} now=${box} hello=${hello}><div class="chips" role="group" aria-label="Track">
-      ${BODIES.map((name) => html`<button type="button" disabled=${!station.where} aria-pressed=${tracks?.name === name} onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
+      ${BODIES.map((name) => html`<button type="button" disabled=${!station.where} aria-pressed=${tracks?.name === name}
+        onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
       ${passes?.some((pass) => pass.plan) && html`<button type="button" onClick=${() => track("plan")}>Follow the plan</button>`}
       ${!/^(off|ended)/.test(box.tracking) && html`<button type="button" onClick=${() => track("off")}>Track nothing</button>`}</div>
       <${Track} now=${box} known=${station.where} say=${say} />
@@ -63,9 +68,12 @@ export function Passes({ now: box, station, hello, say }) {
     ${passes?.length > 0 && html`<p>Error: how far a satellite may be off, from the age of its elements.</p>
     <${NumberField} label="Passes that reach, in degrees" least="0" value=${leastDeg} onInput=${setLeastDeg} />`}
     <p role="status">${station.where ? fault : html`The box does not know where it stands: <a href="#setup">tell it</a>.`}</p>
-    ${shown.length > 0 && html`<${Orders} now=${box} hello=${hello} quiet><table><thead><tr><th scope="col">satellite</th><th scope="col">rises</th><th scope="col" class="wide">at</th>
-      <th scope="col" class="wide">for</th><th scope="col">highest</th><th scope="col" class="wide">from, to</th><th scope="col">error</th><th scope="col">track</th></tr></thead>
-      <tbody>${shown.slice(0, rows).map((pass) => html`<${Row} key=${pass.name + pass.tca} pass=${pass} now=${now} paired=${paired} tracked=${tracks?.name === pass.name} track=${track} beam=${station.beam_deg} />`)}</tbody></table><//>`}
+    ${shown.length > 0 && html`<${Orders} now=${box} hello=${hello} quiet><table><thead><tr><th scope="col">satellite</th><th
+      scope="col">rises</th><th scope="col" class="wide">at</th>
+      <th scope="col" class="wide">for</th><th scope="col">highest</th><th scope="col" class="wide">from, to</th><th
+        scope="col">error</th><th scope="col">track</th></tr></thead>
+      <tbody>${shown.slice(0, rows).map((pass) => html`<${Row} key=${pass.name + pass.tca} pass=${pass} now=${now}
+        paired=${paired} tracked=${tracks?.name === pass.name} track=${track} beam=${station.beam_deg} />`)}</tbody></table><//>`}
     ${shown.length > rows && html`<p><button type="button" onClick=${() => setRows(MOST_ROWS)}>All ${Math.min(shown.length, MOST_ROWS)} passes</button></p>`}
     ${passes !== null && !shown.length && html`<p>No pass is that high.</p>`}</section>
     <${Flown} tracked=${tracks?.name} />

@@ -22,11 +22,13 @@ const VIEWS = {
 };
 
 function Stopwatch() {
-  return html`<g class="yagi"><circle r="44" /><path d="M-9,-60 H9 M0,-58 V-46 M34,-42 L40,-48" /><path class="way" d=${arc(0, 250, 34)} /><path d="M0,0 L18,-20" /></g>`;
+  return html`<g class="yagi"><circle r="44" /><path d="M-9,-60 H9 M0,-58 V-46 M34,-42 L40,-48" /><path class="way"
+    d=${arc(0, 250, 34)} /><path d="M0,0 L18,-20" /></g>`;
 }
 
 function Written() {
-  return html`<g class="yagi"><rect x="-40" y="-52" width="80" height="104" rx="8" /><path d="M-24,-30 H24 M-24,-12 H10" /><path class="way" d="M-20,22 L-6,36 24,4" /></g>`;
+  return html`<g class="yagi"><rect x="-40" y="-52" width="80" height="104" rx="8" /><path d="M-24,-30 H24 M-24,-12 H10" /><path
+    class="way" d="M-20,22 L-6,36 24,4" /></g>`;
 }
 
 export function Picture({ name, axis }) {
@@ -37,10 +39,13 @@ export function Picture({ name, axis }) {
     <path class="ring" d=${arc(low, high, 66)} />
     ${view.limits && html`<path class="way wide" d=${arc(turn(-0.85), turn(0.85), 66)} />`}
     ${view.marks?.map((share) => html`<circle class="mark" cx=${at(turn(share), 66)[0]} cy=${at(turn(share), 66)[1]} r="4" />`)}
-    ${view.stop && html`<path class="block" d=${`M${at(turn(view.stop) + (beside ? -7 : 7) * view.stop, 50)} L${at(turn(view.stop) + (beside ? -7 : 7) * view.stop, 80)}`} />`}
+    ${view.stop && html`<path class="block"
+      d=${`M${at(turn(view.stop) + (beside ? -7 : 7) * view.stop, 50)} L${at(turn(view.stop) + (beside ? -7 : 7) * view.stop, 80)}`} />`}
     ${beside && html`<path class="mast" d="M0,4 V46" />`}
     <g transform=${`rotate(${turn(view.points)})`}>${beside ? BESIDE : YAGI}</g><circle class="hub" r=${beside ? 6 : 8} />
     ${view.arrow && html`<path class="way" marker-end="url(#tip)" d=${arc(turn(view.arrow[0]), turn(view.arrow[1]), 66)} />`}
     ${view.asks !== undefined && html`<text class="asked" x=${at(turn(view.asks), 82)[0]} y=${at(turn(view.asks), 82)[1] + 8}>?</text>`}`;
-  return html`<svg class="picture" viewBox=${beside ? "-84 -88 168 136" : "-88 -88 176 176"} aria-hidden="true"><defs><marker id="tip" viewBox="0 0 10 10" refX="6" refY="5" markerWidth="4" markerHeight="4" orient="auto"><path class="tip" d="M0,0 L10,5 0,10Z" /></marker></defs>${drawn}</svg>`;
+  return html`<svg class="picture" viewBox=${beside ? "-84 -88 168 136" : "-88 -88 176 176"} aria-hidden="true"><defs><marker
+    id="tip" viewBox="0 0 10 10" refX="6" refY="5" markerWidth="4" markerHeight="4" orient="auto"><path class="tip"
+    d="M0,0 L10,5 0,10Z" /></marker></defs>${drawn}</svg>`;
 }

@@ -36,15 +36,18 @@ export function Place({ settings, now, known }) {
   const bad = mistakes.filter((each) => !each.places.some(([table]) => table === "station"));
   return html`<form class="place" onSubmit=${see}>
     <div class="field"><label for="place">The place of the antenna</label>
-      <input id="place" required maxlength="100" autocomplete="off" spellcheck="false" placeholder="JN58td, or 48.85 2.35" value=${place} onInput=${change(type)}
+      <input id="place" required maxlength="100" autocomplete="off" spellcheck="false" placeholder="JN58td, or 48.85 2.35"
+        value=${place} onInput=${change(type)}
         aria-describedby="place-about" aria-invalid=${wrong.length > 0} />
       ${wrong.map((each) => html`<p class="mistake" role="alert">${each}</p>`)}
       <p class="about" id="place-about">A locator of six characters or more, or latitude and longitude in degrees; south and west with a minus.</p></div>
     <div class="field"><label for="elements-from">Fetch the elements of satellites from</label>
-      <input id="elements-from" list="sources" maxlength="300" autocomplete="off" spellcheck="false" placeholder="nowhere else" value=${wanted} onInput=${change(from)} aria-describedby="elements-about" aria-invalid=${bad.length > 0} />
+      <input id="elements-from" list="sources" maxlength="300" autocomplete="off" spellcheck="false" placeholder="nowhere else"
+        value=${wanted} onInput=${change(from)} aria-describedby="elements-about" aria-invalid=${bad.length > 0} />
       <datalist id="sources">${Object.keys(SOURCES).map((each) => html`<option value=${each} />`)}</datalist>
       ${bad.map((each) => html`<p class="mistake" role="alert">${each.text}</p>`)}
-      <p class="about" id="elements-about">Or another address, https:// and so on. Empty: from nowhere new; the view Plan takes a file, too.${fetched.length > 0 && html` Now: ${[fetched].flat().map((each) => html`<code>${each}</code> `)}`}</p></div>
+      <p class="about" id="elements-about">Or another address, https:// and so on. Empty: from nowhere new; the view Plan takes a file, too.${fetched.length > 0 && html` Now: ${[fetched].flat().map((each) => html`<code>
+        ${each}</code> `)}`}</p></div>
     ${!(proposed && !mistakes.length) && html`<button type="submit" class="go" disabled=${settings.busy !== ""}>See what is written</button>`}
     ${view}
     ${known && html`<p>What is up now is on <a href="#">the first view</a>; when satellites pass, on <a href="#sky">the view Plan</a>.</p>`}</form>`;

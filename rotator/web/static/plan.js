@@ -53,9 +53,11 @@ export function PlanTable({ passes }) {
   const planned = passes.filter((pass) => pass.plan && !(pass.los && new Date(pass.los) < boxTime()));
   if (!planned.length) return null;
   const from = (pass) => pass.plan.from ?? pass.aos, until = (pass) => pass.plan.until ?? pass.los;
-  return html`<table class="plan"><thead><tr><th scope="col">from</th><th scope="col" class="wide">until</th><th scope="col">satellite</th><th scope="col" class="wide">highest</th><th scope="col">the antenna</th></tr></thead>
+  return html`<table class="plan"><thead><tr><th scope="col">from</th><th scope="col" class="wide">until</th><th
+    scope="col">satellite</th><th scope="col" class="wide">highest</th><th scope="col">the antenna</th></tr></thead>
     <tbody>${planned.slice(0, rows).map((pass) => html`<tr key=${pass.name + pass.tca} class=${pass.plan.flown ? "" : "out"}>
-      <td class="figure">${from(pass) ? clock(from(pass)) : "is up"}</td><td class="figure wide">${until(pass) ? clock(until(pass)) : "stays"}</td><td>${pass.name}</td>
+      <td class="figure">${from(pass) ? clock(from(pass)) : "is up"}</td><td class="figure wide">
+        ${until(pass) ? clock(until(pass)) : "stays"}</td><td>${pass.name}</td>
       <td class="figure wide">${Math.round(pass.max_el_deg)}°</td><td>${how(pass.plan)}</td></tr>`)}</tbody></table>
     ${planned.length > rows && html`<p><button type="button" onClick=${() => setRows(planned.length)}>All ${planned.length} passes of the plan</button></p>`}`;
 }

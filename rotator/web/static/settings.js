@@ -65,14 +65,18 @@ export const ready = ({ file, tables }) => !!(file && tables);
 export function NoFile({ settings: { file, busy, change }, moving }) {
   if (!file || file.used) return null;
   const begin = () => change("settings/file", { stop: moving });
-  return html`<section class="no-file"><p>${file.there ? html`This box was started without its file. <code>${file.file}</code> is there: the next change is written to it, and the box starts anew with it.`
-    : html`This box runs without a file, as a simulated rotor. The first change that you write makes one, <code>${file.file}</code>, and the box starts anew with it.`} Later <code>${command} run</code> in that folder takes it by itself.${moving && html` <b>The antenna moves: a new start stops it.</b>`}</p>
+  return html`<section class="no-file"><p>${file.there ? html`This box was started without its file. <code>${file.file}
+    </code> is there: the next change is written to it, and the box starts anew with it.`
+    : html`This box runs without a file, as a simulated rotor. The first change that you write makes one, <code>${file.file}
+      </code>, and the box starts anew with it.`} Later <code>
+      ${command} run</code> in that folder takes it by itself.${moving && html` <b>The antenna moves: a new start stops it.</b>`}</p>
     <button type="button" disabled=${busy !== ""} onClick=${begin}>${file.there ? "Start with it now" : "Make it now"}</button></section>`;
 }
 
 /** Lines that change: + and - at their beginning. */
 function Diff({ rows, label }) {
-  return html`<pre class="diff" tabindex="0" role="region" aria-label=${label}>${rows.map((row) => html`<span class=${row[0] === "+" ? "new" : row[0] === "-" ? "gone" : ""}>${row || " "}</span>`)}</pre>`;
+  return html`<pre class="diff" tabindex="0" role="region" aria-label=${label}>${rows.map((row) => html`<span
+    class=${row[0] === "+" ? "new" : row[0] === "-" ? "gone" : ""}>${row || " "}</span>`)}</pre>`;
 }
 
 const at = (values, place) => place.reduce((inner, part) => inner?.[part], values);
@@ -112,20 +116,23 @@ function Keys({ table, place, within, file, draft, setDraft, mistakes, find }) {
   return table.keys.filter((of) => find(table, of)).map((of) => {
     const here = [...place, of.key], text = JSON.stringify(here), was = shown(of.kind, at(file.values, here));
     const set = (value) => setDraft(({ [text]: _, ...others }) => (value === was ? others : { ...others, [text]: { of, value } }));
-    return html`<${Field} key=${text} id=${id(within, here)} of=${of} value=${draft[text]?.value ?? was} usual=${at(file.in_force, here)} changed=${text in draft}
+    return html`<${Field} key=${text} id=${id(within, here)} of=${of} value=${draft[text]?.value ?? was}
+      usual=${at(file.in_force, here)} changed=${text in draft}
       mistakes=${mistakes.filter((each) => each.places.some((one) => same(one, here))).map((each) => each.text)} onInput=${set} />`;
   });
 }
 
 function ListTable({ table, file, draft, setDraft, ...more }) {
-  const had = at(file.values, table.path)?.length ?? 0, new_ = new Set(Object.keys(draft).map((text) => JSON.parse(text)).filter((place) => same(place.slice(0, -2), table.path) && place.at(-2) >= had).map((place) => place.at(-2)));
+  const had = at(file.values, table.path)?.length ?? 0,
+    new_ = new Set(Object.keys(draft).map((text) => JSON.parse(text)).filter((place) => same(place.slice(0, -2), table.path) && place.at(-2) >= had).map((place) => place.at(-2)));
   const [more_, setMore] = useState(0), count = Math.max(had + more_, ...[...new_].map((each) => each + 1), 0);
   const take = (place) => setDraft((all) => ({ ...all, [JSON.stringify(place)]: { value: GONE } }));
   const keep = (place) => setDraft(({ [JSON.stringify(place)]: _, ...others }) => others);
   return html`${Array.from({ length: count }, (_, index) => {
     const place = [...table.path, index], gone = draft[JSON.stringify(place)]?.value === GONE, one = at(file.values, place) ?? {};
     const about = [one.name, one.protocol, one.tcp ?? one.serial ?? one.pty ?? one.udp].filter(Boolean).join(", ");
-    return html`<details class="one" key=${index} open=${index >= had}><summary>${verbatim(name(place))} ${verbatim(about)}${gone && html` <b>taken out</b>`}</summary>
+    return html`<details class="one" key=${index} open=${index >= had}><summary>
+      ${verbatim(name(place))} ${verbatim(about)}${gone && html` <b>taken out</b>`}</summary>
       ${gone ? html`<button type="button" onClick=${() => keep(place)}>Keep ${name(place)}</button>` : html`
         <${Keys} table=${table} place=${place} file=${file} draft=${draft} setDraft=${setDraft} ...${more} />
         <button type="button" onClick=${() => take(place)}>Take ${name(place)} out</button>`}</details>`;
@@ -140,7 +147,8 @@ const worded = (value) => value != null && typeof value === "object" && !Array.i
 export function Changes({ changes, diff, settings: { tables, file } }) {
   const about = (place) => tables?.find((table) => same(table.path, place.slice(0, -1).filter((part) => typeof part === "string")))?.keys.find((of) => of.key === place.at(-1));
   const without = (place, unit, usual = worded(at(file?.in_force ?? {}, place) ?? "")) => (usual === "" ? "not set" : `left out, so ${usual}${unit}`);
-  return html`${changes.length ? html`<table class="changes"><thead><tr><th scope="col">setting</th><th scope="col">now</th><th scope="col">then</th></tr></thead>
+  return html`${changes.length ? html`<table class="changes"><thead><tr><th scope="col">setting</th><th scope="col">now</th><th
+    scope="col">then</th></tr></thead>
     <tbody>${changes.map(({ place, before, after }) => {
       const of = about(place), whole = typeof place.at(-1) === "number", unit = !of?.unit ? "" : of.unit === "°" ? "°" : ` ${of.unit}`;
       return html`<tr><th scope="row">${verbatim(name(place))}${of && html`<small>${plain(of.meaning)}</small>`}</th>
@@ -172,8 +180,10 @@ export function useChange(settings, moving, onDone = () => {}) {
   const fits = proposed && !proposed.mistakes.length;
   const view = html`${fits && html`<section class="asks proposed" role="group" aria-label="What would change" ref=${asks}>
     <${Changes} ...${proposed} settings=${settings} />
-    <p>The box writes this to <code>${file.file}</code>${file.there ? ", keeps the file before beside it," : ""} and starts anew: that takes a few seconds.${moving && html` <b>The antenna moves: it stops.</b>`}</p>
-    <button type="button" class="go" disabled=${busy !== ""} onClick=${write}>Write it and start anew</button> <button type="button" disabled=${busy !== ""} onClick=${forget}>Not yet</button>
+    <p>The box writes this to <code>${file.file}</code>
+      ${file.there ? ", keeps the file before beside it," : ""} and starts anew: that takes a few seconds.${moving && html` <b>The antenna moves: it stops.</b>`}</p>
+    <button type="button" class="go" disabled=${busy !== ""} onClick=${write}>Write it and start anew</button> <button
+      type="button" disabled=${busy !== ""} onClick=${forget}>Not yet</button>
     <span role="status">${busy}</span></section>`}<${Said} ...${told} />`;
   return { proposed, check, forget, tell, view, mistakes: proposed?.mistakes ?? [] };
 }
@@ -183,7 +193,8 @@ export function Settings({ settings, now, only, keys }) {
   const { file, busy, load } = settings, within = only ? `step-${only.join("-")}` : "set";
   const tables = useMemo(() => settings.tables?.filter((table) => !only || only.includes(name(table.path))), [settings.tables]);
   const [draft, setDraft] = useState({}), [forgotten, setForgotten] = useState(0), [words, setWords] = useState(""), form = useRef(null);
-  const { check, forget, proposed, mistakes, view } = useChange(settings, now.status.moving, () => setDraft({})), changes = useMemo(() => (ready(settings) ? changesOf(draft, tables, file.values) : []), [draft, file]);
+  const { check, forget, proposed, mistakes, view } = useChange(settings, now.status.moving, () => setDraft({})),
+    changes = useMemo(() => (ready(settings) ? changesOf(draft, tables, file.values) : []), [draft, file]);
   // What is typed anew was not checked. After the new start nothing is left to write, and its word stays.
   useEffect(() => void (Object.keys(draft).length && forget()), [draft]);
   useEffect(() => void intoSight([...form.current?.querySelectorAll("p.mistake") ?? []].map((each) => each.closest(".field") ?? each)[0]), [mistakes.length && proposed]);
@@ -196,15 +207,22 @@ export function Settings({ settings, now, only, keys }) {
   return html`<section class="settings" ref=${form} aria-label=${only ? `Settings: ${only.join(", ")}` : "All settings"}>
     ${!only && html`<p>All that <code>${file.file}</code> can say. A field that is left empty is not in the file.</p>
       <label>Find a setting<input type="search" value=${words} onInput=${(event) => setWords(event.target.value)} /></label>`}
-    <div class=${`actions ${only ? "after" : ""}`}><button type="button" class="go" disabled=${!changes.length || busy !== ""} onClick=${() => check({ changes })}>${changes.length ? `See ${changes.length === 1 ? "the change" : `${changes.length} changes`}` : "Nothing is changed"}</button>
-      ${changes.length > 0 && html`<button type="button" onClick=${() => (setDraft({}), forget(), setForgotten(forgotten + 1), load())}>Forget ${changes.length === 1 ? "it" : "them"}</button>`}
+    <div class=${`actions ${only ? "after" : ""}`}><button type="button" class="go" disabled=${!changes.length || busy !== ""}
+      onClick=${() => check({ changes })}>
+      ${changes.length ? `See ${changes.length === 1 ? "the change" : `${changes.length} changes`}` : "Nothing is changed"}</button>
+      ${changes.length > 0 && html`<button type="button"
+        onClick=${() => (setDraft({}), forget(), setForgotten(forgotten + 1), load())}>Forget ${changes.length === 1 ? "it" : "them"}</button>`}
       <span role="status">${busy || (mistakes.length > 0 && `${mistakes.length} to mend`)}</span></div>
     ${mistakes.filter((each) => !placed(each)).map((each) => html`<p class="mistake" role="alert">${each.text}</p>`)}
     <div class="outcome">${view}</div>
     ${tables.filter((table) => table.keys.some((of) => find(table, of))).map((table) => {
-      const bad = wrong(table), touched = Object.keys(draft).some((text) => same(JSON.parse(text).filter((part) => typeof part === "string").slice(0, table.path.length), table.path));
-      return html`<details key=${name(table.path)} open=${!!wanted || !!only || bad > 0 || undefined}><summary><b>${verbatim(name(table.path))}</b> ${plain(table.meaning)}${touched && html` <i>changed</i>`}${bad > 0 && html` <b class="mistake">${bad} wrong</b>`}</summary>
-        <div class="keys">${table.many ? html`<${ListTable} key=${`${file.digest} ${forgotten}`} table=${table} ...${use} />` : html`<${Keys} table=${table} place=${table.path} ...${use} />`}</div></details>`;
+      const bad = wrong(table),
+        touched = Object.keys(draft).some((text) => same(JSON.parse(text).filter((part) => typeof part === "string").slice(0, table.path.length), table.path));
+      return html`<details key=${name(table.path)} open=${!!wanted || !!only || bad > 0 || undefined}><summary><b>
+        ${verbatim(name(table.path))}</b> ${plain(table.meaning)}${touched && html` <i>changed</i>`}${bad > 0 && html` <b
+        class="mistake">${bad} wrong</b>`}</summary>
+        <div class="keys">${table.many ? html`<${ListTable} key=${`${file.digest} ${forgotten}`}
+          table=${table} ...${use} />` : html`<${Keys} table=${table} place=${table.path} ...${use} />`}</div></details>`;
     })}
   </section>`;
 }

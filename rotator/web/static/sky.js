@@ -79,19 +79,22 @@ function useUnreached(station) {
 function Backdrop({ station, unreached }) {
   return html`<g>
     <defs>
-      <radialGradient id="air" cx="0" cy="0" r="100" gradientUnits="userSpaceOnUse"><stop class="zenith" /><stop class="high" offset=".62" /><stop class="level" offset="1" /></radialGradient>
+      <radialGradient id="air" cx="0" cy="0" r="100" gradientUnits="userSpaceOnUse"><stop class="zenith" /><stop class="high"
+        offset=".62" /><stop class="level" offset="1" /></radialGradient>
       <pattern id="hatch" width="3" height="3" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><line y2="3" class="hatch" /></pattern>
     </defs>
     <circle r="100" class="sky" />
     ${unreached.length > 0 && html`<path class="unreached" d=${unreached.map(area).join("")}><title>out of the antenna's reach</title></path>`}
     ${[30, 60].map((el) => html`<circle r=${(RADIUS * (90 - el)) / 90} class="ring" />`)}
-    ${[...Array(12).keys()].map((at) => html`<line class="spoke" x1=${(at % 3 ? 33.3 : 0) * Math.sin(rad(30 * at))} y1=${-(at % 3 ? 33.3 : 0) * Math.cos(rad(30 * at))}
+    ${[...Array(12).keys()].map((at) => html`<line
+      class="spoke" x1=${(at % 3 ? 33.3 : 0) * Math.sin(rad(30 * at))} y1=${-(at % 3 ? 33.3 : 0) * Math.cos(rad(30 * at))}
       x2=${100 * Math.sin(rad(30 * at))} y2=${-100 * Math.cos(rad(30 * at))} />`)}
     <path class="horizon" d=${horizon(station.horizon)} fill-rule="evenodd" />
     ${station.sectors.map((sector) => html`<polygon class="sector" points=${box(sector)}><title>${sector.name}</title></polygon>`)}
     <circle r="100" class="edge" />
     ${[...Array(36).keys()].map((at) => html`<line class="tick" transform=${`rotate(${at * 10})`} y1="-100" y2=${at % 3 ? -101.3 : -102.2} />`)}
-    ${[...Array(12).keys()].map((at) => html`<text class=${at % 3 ? "bearing" : "compass"} x=${107 * Math.sin(rad(30 * at))} y=${-107 * Math.cos(rad(30 * at))}>${at % 3 ? at * 30 : "NESW"[at / 3]}</text>`)}
+    ${[...Array(12).keys()].map((at) => html`<text class=${at % 3 ? "bearing" : "compass"} x=${107 * Math.sin(rad(30 * at))}
+      y=${-107 * Math.cos(rad(30 * at))}>${at % 3 ? at * 30 : "NESW"[at / 3]}</text>`)}
     ${[30, 60].map((el) => html`<text class="height" x="1.2" y=${-(RADIUS * (90 - el)) / 90 - 1.2}>${el}°</text>`)}
   </g>`;
 }
@@ -131,7 +134,8 @@ const AntennaMark = ({ antenna, beamDeg, px }) => html`<g><polygon class="beam" 
   <${Sign} at=${antenna} px=${px}><path class="cross" d="M-13,0H13M0,-13V13" /><circle class="antenna" r="7" /></${Sign}></g>`;
 const TargetMark = ({ target, px }) => html`<${Sign} at=${target} px=${px}><path class="target" d="M0,-13 13,0 0,13 -13,0Z" /></${Sign}>`;
 const DraftMark = ({ draft, px }) => html`<${Sign} at=${draft} px=${px}><path class="draft" d="M-16,0H-5M5,0H16M0,-16V-5M0,5V16" /></${Sign}>`;
-const ParkMark = ({ park, px }) => html`<${Sign} at=${parked(park)} px=${px}><g class="park"><circle r="9" /><path d="M-2.5,5.5 V-5.5 H1.3 A3.2,3.2 0 0 1 1.3,1.2 H-2.5" /><title>park position</title></g></${Sign}>`;
+const ParkMark = ({ park, px }) => html`<${Sign} at=${parked(park)} px=${px}><g class="park"><circle r="9" /><path
+  d="M-2.5,5.5 V-5.5 H1.3 A3.2,3.2 0 0 1 1.3,1.2 H-2.5" /><title>park position</title></g></${Sign}>`;
 
 /** `flying`: draws what is up there, with the scale. `onPick`: a direction in whole degrees, where in the picture, and units in a pixel. */
 function Dome({ station, now, past, path, next, draft, onPick, flying }) {
@@ -148,7 +152,8 @@ function Dome({ station, now, past, path, next, draft, onPick, flying }) {
   return html`<figure class="skyview">
     <svg viewBox=${`${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`} role="img" aria-label=${told} onClick=${pick} ref=${picture} style=${{ "--px": px }}>
       ${backdrop}${behind}
-      ${follows?.points.length > 0 && html`<g class="next"><polyline points=${line(follows.points)} /><circle cx=${place(follows.points[0])[0]} cy=${place(follows.points[0])[1]} r="1.6" /></g>`}
+      ${follows?.points.length > 0 && html`<g class="next"><polyline points=${line(follows.points)} /><circle
+        cx=${place(follows.points[0])[0]} cy=${place(follows.points[0])[1]} r="1.6" /></g>`}
       ${path && html`<polyline class="pass" points=${line(path.points)} />`}
       ${antenna && target && html`<line class="gap" x1=${place(antenna)[0]} y1=${place(antenna)[1]} x2=${place(target)[0]} y2=${place(target)[1]} />`}
       <${ParkMark} park=${station.park} px=${px} />

@@ -50,7 +50,8 @@ const when = ({ aos, los }) => `${aos ? clock(aos) : "is up"}${los ? `–${clock
 function Bar({ pass, begin, chosen, reached, onChoose, onKey, onGrab }) {
   const share = (at, or) => Math.min(100, Math.max(0, ((at ? new Date(at) - begin : or) / (HOURS * HOUR_MS)) * 100));
   const left = share(pass.aos, 0), right = share(pass.los, HOURS * HOUR_MS), { plan } = pass, length = right - left || 1;
-  const from = plan?.flown ? (share(plan.from, 0) - left) / length : 0, until = plan?.flown ? (share(plan.until, HOURS * HOUR_MS) - left) / length : 0;
+  const from = plan?.flown ? (share(plan.from, 0) - left) / length : 0,
+    until = plan?.flown ? (share(plan.until, HOURS * HOUR_MS) - left) / length : 0;
   return html`<button type="button" class=${`bar ${state(pass)}`} data-key=${keyOf(pass)} tabindex=${reached ? 0 : -1} aria-pressed=${chosen}
       style=${{ left: `${left}%`, width: `${length}%`, "--high": pass.max_el_deg / 90 }} title=${plan ? how(plan) : null}
       aria-label=${`${pass.name}, ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${plan ? `, ${plan.flown ? "planned" : how(plan)}` : ""}`}
@@ -63,10 +64,16 @@ function Bar({ pass, begin, chosen, reached, onChoose, onKey, onGrab }) {
 function Chosen({ pass, rivals, now, hello, onFly, say }) {
   const { paired } = hello, tracked = now.status.tracks?.name === pass.name, card = useRef(null);
   useEffect(() => intoSight(card.current), [keyOf(pass)]);
-  return html`<div class="chosen" ref=${card}><p role="status"><b>${pass.name}</b> ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${pass.aos_az_deg == null ? "" : `, from ${Math.round(pass.aos_az_deg)}°`}${pass.los_az_deg == null ? "" : ` to ${Math.round(pass.los_az_deg)}°`}. ${pass.plan ? html`<span class=${state(pass)}>${pass.plan.flown ? html`In the plan: ${how(pass.plan)}.` : html`Left out: ${pass.plan.reason}.`}</span>` : "Not in the plan."}</p>
-    ${paired && html`<div class="chips"><${Orders} now=${now} hello=${hello}><button type="button" aria-pressed=${tracked} onClick=${() => act(post("track", { target: pass.name }), say)}>${tracked ? `${pass.name} is tracked` : `Track ${pass.name}`}</button><//>
+  return html`<div class="chosen" ref=${card}><p role="status"><b>${pass.name}
+    </b> ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${pass.aos_az_deg == null ? "" : `, from ${Math.round(pass.aos_az_deg)}°`}${pass.los_az_deg == null ? "" : ` to ${Math.round(pass.los_az_deg)}°`}. ${pass.plan ? html`<span
+    class=${state(pass)}>${pass.plan.flown ? html`In the plan: ${how(pass.plan)}.` : html`Left out: ${pass.plan.reason}.`}
+    </span>` : "Not in the plan."}</p>
+    ${paired && html`<div class="chips"><${Orders} now=${now} hello=${hello}><button type="button" aria-pressed=${tracked}
+      onClick=${() => act(post("track", { target: pass.name }), say)}>
+      ${tracked ? `${pass.name} is tracked` : `Track ${pass.name}`}</button><//>
       <button type="button" onClick=${() => act(keep(pass.name.slice(0, 30), pass.name), say)}>Keep as a favourite</button>
-      ${rivals.map((name) => html`<button type="button" key=${name} onClick=${() => onFly(name)}>${pass.plan.flown ? `Rather fly ${name}` : `Fly it rather than ${name}`}</button>`)}</div>`}</div>`;
+      ${rivals.map((name) => html`<button type="button" key=${name} onClick=${() => onFly(name)}>
+        ${pass.plan.flown ? `Rather fly ${name}` : `Fly it rather than ${name}`}</button>`)}</div>`}</div>`;
 }
 
 /** Those of the plan that are up at the same time, and flown where this one is left out, or left out where it is flown. */
@@ -79,7 +86,8 @@ function rivalsOf(pass, passes) {
 
 export function Timeline({ now, station, hello, say, coming = usePasses() }) {
   const { paired } = hello, { passes, waits, fault, again } = coming, { followed, show, send } = useFollowed(hello, again, say);
-  const [at, setAt] = useState(boxTime), [chosen, choose] = useState(null), [dragged, setDragged] = useState(null), [all, showAll] = useState(false), [undo, setUndo] = useState(null), [told, tell] = useState("");
+  const [at, setAt] = useState(boxTime), [chosen, choose] = useState(null), [dragged, setDragged] = useState(null),
+    [all, showAll] = useState(false), [undo, setUndo] = useState(null), [told, tell] = useState("");
   const list = useRef(null);
   useEffect(() => {
     const tick = setInterval(() => setAt(boxTime()), 10_000);
@@ -115,7 +123,8 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
   /** One bar is reached by Tab, the others from it by the arrows: in time, and to the nearest in the next row. */
   const barKey = (event, row, index) => {
     const bars = (which) => [...(list.current.children[which]?.querySelectorAll(".bar") ?? [])], mine = event.currentTarget.offsetLeft;
-    const turn = { ArrowUp: -1, ArrowDown: 1 }[event.key], near = (found) => found.sort((one, other) => Math.abs(one.offsetLeft - mine) - Math.abs(other.offsetLeft - mine))[0];
+    const turn = { ArrowUp: -1, ArrowDown: 1 }[event.key],
+      near = (found) => found.sort((one, other) => Math.abs(one.offsetLeft - mine) - Math.abs(other.offsetLeft - mine))[0];
     let to = { ArrowLeft: bars(row)[index - 1], ArrowRight: bars(row)[index + 1] }[event.key];
     for (let next = row + turn; turn && !to && list.current.children[next]; next += turn) to = near(bars(next));
     if (event.key.startsWith("Arrow")) event.preventDefault();
@@ -124,25 +133,37 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
   const other = followed.some((one) => one.priority !== one.written);
   return html`<section class="timeline" aria-label="The next 24 hours">
     <div class="above"><h2>The next 24 hours</h2>
-      ${rows.length > 0 && html`<p class="legend">${followed.length > 0 && html`<span class="flown">planned</span><span class="out">left out</span>`}${rows.some((row) => !row.one) && html`<span>not in the plan</span>`}</p>`}
+      ${rows.length > 0 && html`<p class="legend">${followed.length > 0 && html`<span class="flown">planned</span><span
+        class="out">left out</span>`}${rows.some((row) => !row.one) && html`<span>not in the plan</span>`}</p>`}
       ${undo && html`<button type="button" onClick=${takeBack}>Undo: ${undo.says}</button>`}
       ${paired && other && !undo && html`<button type="button" onClick=${asWritten}>The file's order again</button>`}</div>
     ${rows.length > 0 && html`<div tabindex="0" class=${`scroller ${waits ? "old" : ""}`}><div class="day">
-      <div class="ruler" aria-hidden="true">${[...Array(HOURS).keys()].map((hour) => html`<span key=${hour}>${new Date(begin + hour * HOUR_MS).toLocaleTimeString(undefined, { hour: "numeric" })}</span>`)}</div>
-      <div class="behind" aria-hidden="true">${dark.map(([from, until]) => html`<i class="night" style=${{ left: share(from), width: `${((until - from) / (HOURS * HOUR_MS)) * 100}%` }}></i>`)}</div>
+      <div class="ruler" aria-hidden="true">${[...Array(HOURS).keys()].map((hour) => html`<span key=${hour}>
+        ${new Date(begin + hour * HOUR_MS).toLocaleTimeString(undefined, { hour: "numeric" })}</span>`)}</div>
+      <div class="behind" aria-hidden="true">${dark.map(([from, until]) => html`<i class="night"
+        style=${{ left: share(from), width: `${((until - from) / (HOURS * HOUR_MS)) * 100}%` }}></i>`)}</div>
       <ol ref=${list}>${rows.map((row, index) => html`<li key=${row.name} class=${dragged && dragged === row.one ? "dragged" : ""}>
-        ${row.one && paired && followed.length > 1 ? html`<button type="button" class="name handle" aria-label=${`${row.name}, place ${index + 1} of ${followed.length}: drag, or move with the arrow keys`}
-          onPointerDown=${(event) => grab(event, followed.indexOf(row.one))} onKeyDown=${(event) => keyed(event, followed.indexOf(row.one), followed.length, (to) => place(followed.indexOf(row.one), to))}><span aria-hidden="true">⠿</span><span>${brief(row.name)}</span></button>`
+        ${row.one && paired && followed.length > 1 ? html`<button type="button" class="name handle"
+          aria-label=${`${row.name}, place ${index + 1} of ${followed.length}: drag, or move with the arrow keys`}
+          onPointerDown=${(event) => grab(event, followed.indexOf(row.one))}
+            onKeyDown=${(event) => keyed(event, followed.indexOf(row.one), followed.length, (to) => place(followed.indexOf(row.one), to))}>
+            <span aria-hidden="true">⠿</span><span>${brief(row.name)}</span></button>`
         : html`<b class="name">${brief(row.name)}</b>`}
-        <div class="lane">${row.one?.fault ? html`<p>${row.one.fault}</p>` : row.passes.map((each, number) => html`<${Bar} key=${keyOf(each)} pass=${each} begin=${begin} chosen=${keyOf(each) === chosen} reached=${each === (pass ?? first)}
-          onChoose=${() => choose(keyOf(each))} onKey=${(event) => barKey(event, index, number)} onGrab=${(event) => row.one && event.pointerType === "mouse" && grab(event, followed.indexOf(row.one))} />`)}</div></li>`)}</ol>
+        <div class="lane">${row.one?.fault ? html`<p>${row.one.fault}</p>` : row.passes.map((each, number) => html`<${Bar}
+          key=${keyOf(each)} pass=${each} begin=${begin} chosen=${keyOf(each) === chosen} reached=${each === (pass ?? first)}
+          onChoose=${() => choose(keyOf(each))} onKey=${(event) => barKey(event, index, number)}
+            onGrab=${(event) => row.one && event.pointerType === "mouse" && grab(event, followed.indexOf(row.one))} />`)}</div></li>`)}</ol>
       <div class="behind front" aria-hidden="true"><i class="now" style=${{ left: share(at) }}></i></div>
     </div></div>`}
-    ${every.length > most && html`<p><button type="button" aria-expanded=${all} onClick=${() => showAll(!all)}>${all ? "Fewer satellites" : `Other satellites: ${every.length - most}`}</button></p>`}
+    ${every.length > most && html`<p><button type="button" aria-expanded=${all} onClick=${() => showAll(!all)}>
+      ${all ? "Fewer satellites" : `Other satellites: ${every.length - most}`}</button></p>`}
     ${pass ? html`<${Chosen} pass=${pass} rivals=${rivalsOf(pass, passes)} now=${now} hello=${hello} say=${say}
       onFly=${(name) => (pass.plan.flown ? prefer(name, pass.name) : prefer(pass.name, name))} />`
     : rows.length > 0 && html`<p class="about">Press a bar to see more of a pass.${paired && followed.length > 1 ? " Drag the satellite that counts more to the top: where two are up at once, a minute of the first is worth more." : ""}</p>`}
-    ${!followed.length && station.where && html`<p class="about">The box flies passes by itself once it follows satellites: <a href="#setup/8">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
-    <p class="about" role="status">${waits ? "The box computes passes and plan …" : !station.where ? html`The box does not know where it stands: <a href="#setup">tell it</a>.` : fault || (passes && !rows.length ? "No pass is high enough." : "")}</p>
+    ${!followed.length && station.where && html`<p class="about">The box flies passes by itself once it follows satellites: <a
+      href="#setup/8">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
+    <p class="about" role="status">
+      ${waits ? "The box computes passes and plan …" : !station.where ? html`The box does not know where it stands: <a
+      href="#setup">tell it</a>.` : fault || (passes && !rows.length ? "No pass is high enough." : "")}</p>
     <p class="only-read" role="status">${told}</p></section>`;
 }

@@ -38,7 +38,8 @@ function watch(upto, heard, lost) {
 
 /** `hello`: another one after each loss of the connection: a cable that is pulled closes no WebSocket. */
 export function Wires({ hello, links }) {
-  const [rows, setRows] = useState([]), [link, setLink] = useState(""), [paused, setPaused] = useState(false), [waiting, setWaiting] = useState(0), [said, say] = useState("");
+  const [rows, setRows] = useState([]), [link, setLink] = useState(""), [paused, setPaused] = useState(false),
+    [waiting, setWaiting] = useState(0), [said, say] = useState("");
   const held = useRef([]), stopped = useRef(false), count = useRef(0), end = useRef(null), upto = useRef(null);
   useEffect(() => watch(upto, (lines, missed) => {
     say("");
@@ -75,6 +76,7 @@ export function Wires({ hello, links }) {
     <p class="said" role="status">${said}</p>
     <div class="bytes" ref=${end} tabindex="0" role="region" aria-label="Bytes of the links">
       ${shown.map((each) => each.remark !== undefined ? html`<p key=${each.key} class="remark">${each.remark}</p>`
-        : html`<p key=${each.key} class=${each.way === ">" ? "came" : "went"}><span class="at">${each.at}</span> <span class="who">${each.who}</span> <b>${each.way}</b> <code>${each.bytes}</code></p>`)}
+        : html`<p key=${each.key} class=${each.way === ">" ? "came" : "went"}><span class="at">${each.at}</span> <span
+          class="who">${each.who}</span> <b>${each.way}</b> <code>${each.bytes}</code></p>`)}
       ${!shown.length && html`<p class="remark">Nothing has come yet.</p>`}</div></section>`;
 }

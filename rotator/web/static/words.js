@@ -4,7 +4,8 @@
 import * as first from "/language.js";
 
 const FIRST = 0xe000, VALUE = /[\ue000-\uf8ff]/, VALUES = /[\ue000-\uf8ff]/g, WORD = /\p{L}{2}/u, AT_LINES = /^\s*\n\s*|\s*\n\s*$/g;
-const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE = /([\w-]+)=(?:"([^"]*)"|'([^']*)')/g, GIVEN = /([\w-]+)=([\ue000-\uf8ff])/g;
+const TOKEN = /<!--[\s\S]*?-->|<(?:"[^"]*"|'[^']*'|[^>"'])*>|[^<]+/g, ATTRIBUTE = /([\w-]+)=(?:"([^"]*)"|'([^']*)')/g,
+  GIVEN = /([\w-]+)=([\ue000-\uf8ff])/g;
 const READ = ["aria-label", "title", "placeholder", "label", "alt"], VERBATIM = ["code", "pre", "svg", "style"], MOST_KEPT = 3000;
 const SEPARATORS = [/([.!?] +|[.!?]+$)/, /(; +)/, /(: +)/, /(, +)/, /( and )/, /( ?\(|\)$)/];
 const VIEWS = ["setup", "doctor"], PATIENCE_MS = 3000;
