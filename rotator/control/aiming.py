@@ -225,6 +225,12 @@ class Aiming:
             return True
         return False
 
+    def fly_anew(self) -> None:
+        """A fault has passed by itself. It has stopped its axis on the way to a place of the pass that is flown, and an
+        axis with relays is given each place once: give it again."""
+        if self._flight is not None:
+            self._flight.begin_goals_anew()
+
     def drop(self, faulted: set[Axis]) -> None:
         """Do not repeat or extend the order in force: for these axes it has ended. Another axis keeps its target."""
         self._asked = self._flight = None

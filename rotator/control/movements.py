@@ -192,6 +192,8 @@ class Movements:
         before, self._faulted = self._faulted, self.faulted
         if self._faulted - before:
             self._idle.ended()
+        if before - self._faulted:
+            self._aiming.fly_anew()
         if self._faulted:
             # End the list now. Otherwise acknowledging the fault would start a motor.
             self.timed.halt()

@@ -10,6 +10,7 @@ import math
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.exchange.faults import FaultKind
 from rotator.exchange.orders import BOTH, Aim, GiveBack, Jog, Mode, Order, Release, SetMode, Stop
 from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Catalogue
@@ -176,6 +177,22 @@ def test_go_on_after_a_fault_goes_on_with_what_was_tracked(rise: Box, fault: str
     assert rise.loop.status.flown is not None
     assert rise.loop.status.azimuth.target_deg is not None
     assert rise.loop.status.elevation.target_deg is not None
+
+
+def test_a_computer_that_stood_still_on_the_way_to_where_it_rises_goes_on_there_by_itself() -> None:
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    box = Box(found.aos_s - 200.0)
+    assert box.tracker.track("iss") == ""
+    box.wait(8.0)
+    assert box.loop.status.moving
+    box.clock.sleep(1.0)
+    box.loop.cycle()
+    assert {fault.kind for fault in box.loop.status.faults} == {FaultKind.CONTROL_LATE}
+    box.wait(60.0)
+    azimuth = box.loop.status.azimuth
+    assert azimuth.target_deg is not None
+    assert azimuth.angle_deg == pytest.approx(azimuth.target_deg, abs=1.0)
 
 
 def test_go_on_after_a_fault_goes_on_with_the_plan_of_many_passes() -> None:
