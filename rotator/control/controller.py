@@ -91,8 +91,8 @@ class Controller:
                 self._take(source, order, now_s)
             except Refused as reason:
                 self.troubles.append(str(reason))
-        self._movements.end_what_faults_end()
         try:
+            self._movements.after_faults(storm=self._authority.storm)
             self._movements.go_on(now_s, may_park=self._authority.moves_by_itself)
         except Refused as reason:
             self.troubles.append(str(reason))

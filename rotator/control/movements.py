@@ -188,16 +188,20 @@ class Movements:
         """No more orders come from the sender that moves the antenna: the target stands at the last one."""
         self._aiming.end_stream()
 
-    def end_what_faults_end(self) -> None:
+    def after_faults(self, *, storm: bool) -> None:
+        """End what a new fault ends. A pass that is flown and a storm park (`storm`) go on where one has passed by
+        itself. Raises Refused."""
         before, self._faulted = self._faulted, self.faulted
         if self._faulted - before:
             self._idle.ended()
-        if before - self._faulted:
-            self._aiming.fly_anew()
         if self._faulted:
             # End the list now. Otherwise acknowledging the fault would start a motor.
             self.timed.halt()
             self._aiming.end_following()
+        if before - self._faulted:
+            self._aiming.fly_anew()
+            if storm:
+                self.park()
 
     def pause(self, source: Source, now_s: float) -> None:
         """`source` is about to stop what it ordered itself: its next direction may go on with it."""

@@ -112,6 +112,17 @@ def test_a_storm_park_holds_and_is_driven_on_by_a_person_alone(tmp_path: Path) -
     assert not Run(tmp_path, again).moves(Aim(100.0, 60.0))
 
 
+def test_a_storm_park_goes_on_where_the_computer_stood_still_for_a_moment(tmp_path: Path) -> None:
+    run = Run(tmp_path)
+    run.order(Park(storm=True), CONSOLE)
+    run.wait(3.0)
+    run.clock.sleep(1.0)
+    run.wait(1.0)
+    assert run.loop.status.faults
+    run.wait(60.0)
+    assert run.world.antenna() == pytest.approx((0.0, 0.0), abs=4.5)
+
+
 def test_every_display_names_who_stopped_it(tmp_path: Path) -> None:
     run = Run(tmp_path)
     run.order(Stop(latch=True), CONSOLE)
