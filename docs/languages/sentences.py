@@ -27,7 +27,7 @@ ROOMS = {
     "": (
         *("rotator/control", "rotator/exchange", "rotator/rotors", "rotator/tracking", "rotator/views/words.py"),
         *("rotator/runtime/keeping.py", "rotator/runtime/errands.py", "rotator/protocols/operating.py"),
-        *("rotator/web", "rotator/links/wire.py"),
+        *("rotator/web", "rotator/links/wire.py", "rotator/orbits/targets.py", "rotator/orbits/catalogue.py"),
     ),
     "setup": (
         *("rotator/setup/question.py", "rotator/setup/questions.py"),

@@ -14,7 +14,10 @@ from rotator.orbits.element_files import EPOCH_AHEAD_S, FileContent, Read, files
 from rotator.orbits.elements import Elements
 from rotator.orbits.names import by_spoken_name, meant, one_satellite, plain
 
-NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
+NO_SATELLITES = (
+    'No satellites are known. Send a file of elements on the page, or write elements = ["FILE"] below [sky]. '
+    "The Sun, the Moon and the planets need none"
+)
 NOT_FETCHED = "No satellites are known: none have been fetched yet; `rotator sky elements` tells why"
 MOST_FAULTS = 3
 """Faults of files in one sentence."""
@@ -110,8 +113,8 @@ class Catalogue:
             return found[0]
         if found:
             several = ", ".join(f"{each.name} ({each.catalogue_number})" for each in found[:8])
-            by = "number" if len({each.catalogue_number for each in found}) == len(found) else "whole name"
-            raise Unknown(f'"{name}" may be {several}: name one by its {by}')
+            numbers = len({each.catalogue_number for each in found}) == len(found)
+            raise Unknown(f'"{name}" may be {several}: name one by its {"number" if numbers else "whole name"}')
         if not self._has_looked:
             raise Unknown(STILL_READ)
         shown = {each: min(sets, key=lambda one: one.catalogue_number).name for each, sets in self._names.items()}
@@ -119,8 +122,8 @@ class Catalogue:
         near = difflib.get_close_matches(plain(name), shown, n=3, cutoff=0.6)
         perhaps = _perhaps(list(dict.fromkeys(shown[each] for each in near)))
         if not self._sets:
-            raise Unknown(f'there is no target "{name}"{perhaps or "."} {self.none_known}')
-        raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known{perhaps}')
+            raise Unknown(f'there is no target "{name}"' + (perhaps or ".") + f" {self.none_known}")
+        raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known' + perhaps)
 
 
 def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
@@ -133,4 +136,4 @@ def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
 
 
 def _perhaps(names: Sequence[str]) -> str:
-    return f"; perhaps {' or '.join(names)}?" if names else ""
+    return "; " + f"perhaps {' or '.join(names)}" + "?" if names else ""
