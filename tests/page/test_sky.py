@@ -95,7 +95,7 @@ def test_elements_are_sent_whole_or_not_at_all(start: Start, visit: Visit, tmp_p
     assert list((tmp_path / "uploaded").iterdir()) == []
     send.set_input_files({"name": "mine.json", "mimeType": "application/json", "buffer": good.encode()})
     page.get_by_text("mine.txt is kept.").wait_for()
-    page.get_by_text("1 satellites, ").wait_for()
+    page.get_by_text("1 satellite, ").wait_for()
     page.get_by_role("button", name="Track MINE").first.click(timeout=COMPUTED_MS)
     page.get_by_text("Tracks MINE").wait_for()
     page.get_by_role("button", name="Remove mine.txt").click()
