@@ -1,4 +1,4 @@
-"""Whether a view can be used in every window, with larger text: what a person would see is measured in Chromium.
+"""Whether a view can be used in every window, with larger text: what a person would see is measured.
 
 Knows sizes and geometry. Knows nothing of what a view says, or of how one gets there.
 """
@@ -59,21 +59,31 @@ MEASURED = r"""() => {
 
 
 def misfits(page: Page, name: str) -> list[str]:
-    """What does not fit in some window, of the view as it stands; it stands in its first window afterwards."""
-    before, fonts, found = page.viewport_size, page.context.new_cdp_session(page), list[str]()
+    """What does not fit in some window, of the view as it stands; it stands in its first window afterwards.
+
+    Firefox's own size of text cannot be set from here: there it is measured as it is.
+    """
+    before, browser, found = page.viewport_size, page.context.browser, list[str]()
     assert before is not None
-    for width, height in WINDOWS:
-        page.set_viewport_size({"width": width, "height": height})
-        for percent in TEXT_PERCENT:
+    assert browser is not None
+    fonts = page.context.new_cdp_session(page) if browser.browser_type.name == "chromium" else None
+
+    def text(percent: int) -> None:
+        if fonts:
             sizes = {"standard": 16 * percent // 100, "fixed": 13 * percent // 100}
             fonts.send("Page.setFontSizes", {"fontSizes": sizes})
-            wrong = _settled(page)
-            found += [f"{name}, {width} px, {percent} %: {each}" for each in wrong]
+
+    for width, height in WINDOWS:
+        page.set_viewport_size({"width": width, "height": height})
+        for percent in TEXT_PERCENT if fonts else (100,):
+            text(percent)
+            found += [f"{name}, {width} px, {percent} %: {each}" for each in _settled(page)]
         if width in READ_BY_AXE:
-            fonts.send("Page.setFontSizes", {"fontSizes": {"standard": 16, "fixed": 13}})
+            text(100)
             found += [f"{name}, {width} px, axe: {each}" for each in violations(page)]
-    fonts.send("Page.setFontSizes", {"fontSizes": {"standard": 16, "fixed": 13}})
-    fonts.detach()
+    text(100)
+    if fonts:
+        fonts.detach()
     page.set_viewport_size(before)
     return found
 
