@@ -77,7 +77,7 @@ test-page: $(VENV)/.dev
 # the wires of its sockets, downloads) fails.
 test-firefox: $(VENV)/.dev
 	ROTATOR_BROWSER=firefox $(BIN)/pytest -n 2 --dist worksteal $(foreach name,$(FIREFOX),tests/page/test_$(name).py)
-FIREFOX := first_look first_use demo live_sky orders
+FIREFOX := first_look no_file demo live_sky orders
 
 # install.sh and the .deb in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
 test-install: $(VENV)/.release
