@@ -23,6 +23,11 @@ def main() -> None:
         _run()
     except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
         sys.exit(INTERRUPTED)
+    except RuntimeError as fault:
+        # So Python 3.11 tells of a Ctrl-C while a class is made.
+        if not isinstance(fault.__cause__, KeyboardInterrupt):
+            raise
+        sys.exit(INTERRUPTED)
     except OSError as fault:
         if fault.filename is not None or fault.errno not in UNWRITTEN:
             raise

@@ -57,10 +57,14 @@ def test_the_installer_writes_the_same_launcher() -> None:
 PRESSES = """
 import sys
 
+class Part:
+    def __set_name__(self, made, name):
+        raise KeyboardInterrupt
+
 class CtrlC:
     def find_spec(self, name, path=None, target=None):
         if name == {module!r}:
-            raise KeyboardInterrupt
+            {press}
 
 sys.meta_path.insert(0, CtrlC())
 sys.argv = ["rotator", {command!r}]
@@ -76,7 +80,15 @@ main()
     some(list(product(["click", "pydantic", "rotator.config.load"], ["run", "where", "stop", "doctor", "calibrate"]))),
 )
 def test_at_the_import_of_a_module(command: str, module: str, tmp_path: Path) -> None:
-    script = PRESSES.format(module=module, command=command)
+    says_nothing(PRESSES.format(module=module, command=command, press="raise KeyboardInterrupt"), tmp_path)
+
+
+def test_while_a_class_is_made(tmp_path: Path) -> None:
+    """Python 3.11 makes another exception of it."""
+    says_nothing(PRESSES.format(module="pydantic", command="run", press="type('Made', (), {'part': Part()})"), tmp_path)
+
+
+def says_nothing(script: str, tmp_path: Path) -> None:
     ended = subprocess.run(
         [sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False
     )
