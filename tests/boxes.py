@@ -5,6 +5,7 @@ Knows the text of such a file. Knows nothing of how a box is started, or of what
 
 from __future__ import annotations
 
+import random
 import socket
 from itertools import islice
 from pathlib import Path
@@ -13,17 +14,23 @@ from typing import IO
 FAST_ROTOR = (Path(__file__).parent / "fast_rotor.toml").read_text(encoding="utf-8")
 GREETING_LINES = 2
 
-
+PORTS = range(20_000, 32_000)
+"""Below those that the kernel gives to whoever connects: such a one may be taken before its box listens."""
+_CHANCE = random.SystemRandom()
+"""No two workers draw the same ones, whatever their seed."""
 _GIVEN: set[int] = set()
-"""Ports that a test of this process has got: the kernel may name one again before its box listens."""
+"""Ports that a test of this process has got: its box may not listen yet."""
 
 
 def free_port() -> int:
     """A TCP port of this machine that nothing listens on, never the same one twice."""
     while True:
+        port = _CHANCE.choice(PORTS)
         with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            port = int(probe.getsockname()[1])
+            try:
+                probe.bind(("127.0.0.1", port))
+            except OSError:
+                continue
         if port not in _GIVEN:
             _GIVEN.add(port)
             return port
@@ -33,11 +40,11 @@ def free_udp_ports() -> int:
     """A UDP port whose neighbour is free too."""
     while True:
         with socket.socket(type=socket.SOCK_DGRAM) as one, socket.socket(type=socket.SOCK_DGRAM) as neighbour:
-            one.bind(("127.0.0.1", 0))
-            port = int(one.getsockname()[1])
+            port = _CHANCE.choice(PORTS)
             try:
+                one.bind(("127.0.0.1", port))
                 neighbour.bind(("127.0.0.1", port + 1))
-            except (OSError, OverflowError):
+            except OSError:
                 continue
             return port
 
