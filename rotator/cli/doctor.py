@@ -31,6 +31,12 @@ from rotator.doctor.machine import Silent, this_machine
 
 PLAIN_WIDTH = 110
 
+FORM = 1
+"""The version of the object's form. It rises when a key is removed or changes its meaning, not when one is added."""
+
+Findings = Sequence[tuple[str, Finding]]
+"""(name of the check, its finding)."""
+
 
 def examine_box(path: Path | None, *, as_json: bool) -> int:
     """Check and print. Returns the exit code: 0 without errors, 1 with errors, 2 for an unusable configuration."""
@@ -71,13 +77,6 @@ def _show(lines: RenderableType) -> None:
     with console.capture() as printed:
         console.print(lines)
     click.echo("\n".join(line.rstrip() for line in printed.get().splitlines()))
-
-
-FORM = 1
-"""The version of the object's form. It rises when a key is removed or changes its meaning, not when one is added."""
-
-Findings = Sequence[tuple[str, Finding]]
-"""(name of the check, its finding)."""
 
 
 def report(findings: Findings) -> RenderableType:

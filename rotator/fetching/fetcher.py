@@ -20,6 +20,8 @@ from rotator.store.fetches import Asked, FetchesFile, file_of
 
 log = logging.getLogger(__name__)
 
+LOOK_S = 5.0
+
 UNANSWERED = "asked, and no answer has come yet"
 DAMAGED = "the record of earlier fetches was damaged"
 FORGOTTEN_S = 7 * REFUSED_S
@@ -160,9 +162,6 @@ def _after(asked: Asked, answer: Answer) -> Asked:
         etag=answer.etag,
         modified=answer.modified,
     )
-
-
-LOOK_S = 5.0
 
 
 class FetchThread(OwnThread):

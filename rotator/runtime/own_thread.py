@@ -16,6 +16,8 @@ from typing import TypeVar
 
 from hw.ports import HardwareError
 
+log = logging.getLogger(__name__)
+
 T = TypeVar("T")
 
 
@@ -62,9 +64,6 @@ async def aside(job: Callable[[], T], name: str, late: Callable[[T], object] = l
 
     threading.Thread(target=run, name=name, daemon=True).start()
     return await asyncio.wrap_future(done)
-
-
-log = logging.getLogger(__name__)
 
 
 @contextmanager
