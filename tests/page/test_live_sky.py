@@ -19,7 +19,7 @@ from tests.page.test_dashboard import PHONE, waits_for
 from tests.page.test_sky import COMPUTED_MS, LOCATOR, SITE
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Locator, Page
 
 Start = Callable[..., Station]
 Visit = Callable[..., "Page"]
@@ -40,6 +40,14 @@ def file_of(folder: Path, sets: list[Elements], *, follow: str = "") -> str:
     (folder / "made.json").write_text(as_json(sets), encoding="utf-8")
     table = f'[[sky.follow]]\nname = "{follow}"\n' if follow else ""
     return f'[station]\nlocator = "{LOCATOR}"\n[sky]\nelements = ["{folder}/made.json"]\n{table}'
+
+
+def above_stop(page: Page, shown: Locator) -> bool:
+    """Whole on the screen without scrolling. A busy machine may tell of a late sensor for a moment, above all else."""
+    box, stop = shown.bounding_box(), page.locator("#stop").bounding_box()
+    assert box is not None
+    assert stop is not None
+    return box["y"] >= 0 and box["y"] + box["height"] <= stop["y"]
 
 
 @pytest.mark.parametrize("how", HOWS, ids=["laptop", "phone"])
@@ -63,11 +71,7 @@ def test_what_is_up_stands_where_skyfield_sees_it_and_two_presses_track_it(
     card.get_by_text("LOS in").wait_for()
     assert page.locator(".arc polyline").count() == 2
     track = card.get_by_role("button", name="Track")
-    box, stop = track.bounding_box(), page.locator("#stop").bounding_box()
-    assert box is not None
-    assert stop is not None
-    assert box["y"] >= 0
-    assert box["y"] + box["height"] <= stop["y"], "above STOP without scrolling"
+    waits_for(page, lambda: above_stop(page, track))
     track.click()
     card.get_by_role("button", name="End AO-1").wait_for(timeout=COMPUTED_MS)
     page.locator(".headline .facts", has_text="GOING (AO-1) LOS").wait_for()
@@ -78,6 +82,23 @@ def test_what_is_up_stands_where_skyfield_sees_it_and_two_presses_track_it(
     sign = -1 if dot["x"] > sky["x"] + sky["width"] / 2 else 1
     page.mouse.click(sky["x"] + sky["width"] / 2 + sign * sky["height"] / 4, sky["y"] + sky["height"] / 2)
     page.get_by_role("button", name="Point to").wait_for()
+
+
+def test_nothing_moves_under_the_finger_when_the_next_pass_comes(start: Start, visit: Visit, tmp_path: Path) -> None:
+    """It is named below the sky, seconds after the satellites can be pressed."""
+    now_s = time.time()
+    later = satellite("LATER", 90_002, now_s, SITE, rises_in(now_s, 1200.0))
+    page = visit(start(file_of(tmp_path, [later])), **PHONE)
+    page.locator(".key.next").wait_for(timeout=COMPUTED_MS)
+    with_it_px, without_px = page.evaluate(
+        """() => {
+            const caption = document.querySelector(".skyview figcaption"), copy = caption.cloneNode(true);
+            copy.querySelector(".next").remove();
+            caption.after(copy);
+            return [caption.offsetHeight, copy.offsetHeight];
+        }"""
+    )
+    assert with_it_px == without_px
 
 
 @pytest.mark.parametrize("light", ["light", "dark"])
@@ -115,11 +136,10 @@ def test_the_sky_is_large_in_every_window(start: Start, visit: Visit, width: int
     page = visit(start(), viewport={"width": width, "height": height})
 
     def is_whole() -> bool:
-        """A busy machine may tell of a late sensor for a moment, above the sky."""
-        circle, stop = page.locator(".skyview .sky").bounding_box(), page.locator("#stop").bounding_box()
+        sky = page.locator(".skyview .sky")
+        circle = sky.bounding_box()
         assert circle is not None
-        assert stop is not None
-        return circle["width"] >= share * min(width, height) and circle["y"] + circle["height"] <= stop["y"]
+        return circle["width"] >= share * min(width, height) and above_stop(page, sky)
 
     waits_for(page, is_whole)
 
