@@ -13,7 +13,7 @@ from typing import Any
 from pydantic.fields import FieldInfo
 
 from rotator.config.keys import TableOf, bare, describe, question, tables
-from rotator.config.kinds import USUAL
+from rotator.config.kinds import KINDS
 
 _NUMBERS = {
     list[tuple[float, float]]: "pairs",
@@ -48,13 +48,13 @@ def _of_both_axes() -> Iterable[list[TableOf]]:
 
 def _usual() -> str:
     lines = []
-    for kind, places in USUAL.items():
+    for name, kind in KINDS.items():
         tables_of: dict[str, list[str]] = {}
-        for place, keys in places.items():
+        for place, keys in kind.usual.items():
             for key, value in keys.items():
                 tables_of.setdefault(f"`{key} = {_toml(value)}`", []).append(f"`{place}`")
         if tables_of:
-            lines.append(f"- `{kind}`: " + "; ".join(f"{each} in {', '.join(at)}" for each, at in tables_of.items()))
+            lines.append(f"- `{name}`: " + "; ".join(f"{each} in {', '.join(at)}" for each, at in tables_of.items()))
     intro = "Defaults that differ from those above (limits: on the simulated rotor only)."
     return f"### By kind of rotor\n\n{intro}\n\n" + "\n".join(lines)
 

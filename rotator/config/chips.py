@@ -29,7 +29,7 @@ ADDRESSES: dict[str, tuple[int, ...]] = {
     "BNO055": (0x28, 0x29),
     "MCP4725": tuple(range(0x60, 0x68)),
 }
-"""The usual addresses of each part, from its data sheet. 0x38 to 0x3F are those of the PCF8574A."""
+"""The usual addresses of each part, from its data sheet, the most usual one first. 0x38 to 0x3F are a PCF8574A's."""
 _MORE = {"PCA9685": range(0x40, 0x78), "AS5600": range(0x08, 0x78)}
 """Six pins set a PCA9685's address, and an AS5600L's is programmed."""
 

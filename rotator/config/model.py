@@ -7,6 +7,7 @@ these tables, except what differs by kind of rotor: `usual` of each kind. Knows 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import fields
 from typing import Any, TypeVar
 
 from pydantic import Field, model_validator
@@ -18,17 +19,16 @@ from rotator.config.axis_faults import endless_faults, felt_faults, in_turns
 from rotator.config.chips import I2CChip, SpiUse, chips_twice, pins_twice, spi_lines
 from rotator.config.devices import Lcd, Relays
 from rotator.config.forbidden import Place, forbidden_faults
-from rotator.config.kinds import Rotor, with_usual
-from rotator.config.kinds.controller import Controller, ControllerKind
-from rotator.config.kinds.digipot import Digipot, DigipotKind
-from rotator.config.kinds.h_bridge import Bridge, HBridgeKind
+from rotator.config.kinds import KINDS, Rotor, with_usual
+from rotator.config.kinds.controller import Controller
+from rotator.config.kinds.digipot import Digipot
+from rotator.config.kinds.h_bridge import Bridge
 from rotator.config.kinds.kind import EndStop, Kind, OffLine
-from rotator.config.kinds.moteus import Moteus, MoteusKind
-from rotator.config.kinds.relay_pot import RelayPot
-from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
-from rotator.config.kinds.relay_timed import RelayTimed, Timed
-from rotator.config.kinds.servo import Servo, ServoKind
-from rotator.config.kinds.stepper import Stepper, StepperKind
+from rotator.config.kinds.moteus import Moteus
+from rotator.config.kinds.relay_pulse import Pulses
+from rotator.config.kinds.relay_timed import Timed
+from rotator.config.kinds.servo import Servo
+from rotator.config.kinds.stepper import Stepper
 from rotator.config.links import Link, follows_itself, needs_station, places_twice
 from rotator.config.mount import MountTable
 from rotator.config.mqtt import MqttTable
@@ -160,32 +160,21 @@ class Config(Table):
             yield 'mount.tolerance = "axis" is for motors on relays: these go to every angle, however near'
 
     @property
+    def simulated(self) -> bool:
+        """Whether the rotor is a simulated one."""
+        return self.rotor.hardware == "sim"
+
+    @property
     def keeps_files(self) -> bool:
         """Whether the rotor outlives the program, so that kept angles stay true: a real or a kept one."""
-        return self.rotor.hardware != "sim" or self.sim.world is not None
+        return not self.simulated or self.sim.world is not None
 
     @property
     def kind(self) -> Kind:
-        """The kind of rotor that the file names, with its tables."""
-        match self.rotor.type:
-            case "relay-pot":
-                return RelayPot(self.relays, self.brakes, self.speeds)
-            case "relay-pulse":
-                return RelayPulse(self.relays, self.brakes, self.speeds, self.pulses)
-            case "relay-timed":
-                return RelayTimed(self.relays, self.brakes, self.speeds, self.timed)
-            case "moteus":
-                return MoteusKind(self.moteus)
-            case "servo":
-                return ServoKind(self.servo)
-            case "digipot":
-                return DigipotKind(self.digipot)
-            case "h-bridge":
-                return HBridgeKind(self.bridge, self.limits)
-            case "controller":
-                return ControllerKind(self.controller, self.rotor.hardware == "sim")
-            case "stepper":
-                return StepperKind(self.stepper)
+        """The kind of rotor that the file names, with the tables that its fields name."""
+        kind = KINDS[self.rotor.type]
+        make: Callable[..., Kind] = kind
+        return make(*(getattr(self, field.name) for field in fields(kind)))
 
     @property
     def fitted(self) -> tuple[Axis, ...]:

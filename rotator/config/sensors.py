@@ -12,7 +12,7 @@ from typing import Literal
 from pydantic import Field
 
 from hw.ports import AngleSource
-from rotator.config.chips import KERNEL_WIRES, I2CChip, SpiUse
+from rotator.config.chips import ADDRESSES, KERNEL_WIRES, I2CChip, SpiUse
 from rotator.config.table import I2CAddress, I2CBus, Point, Table
 
 TILTS = {"mpu6050": 0.32, "adxl345": 0.34, "lsm303-accel": 0.34}
@@ -21,11 +21,6 @@ the chip's own filter. While the motor shakes it, older readings alone count."""
 COMPASSES = {"qmc5883l": 0.1, "hmc5883l": 0.1, "lsm303-mag": 0.1}
 """The compass chips, likewise: a result lasts 20 ms, and waits to be read."""
 Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
-ADDRESSES = {
-    "as5600": 0x36, "as5048b": 0x40, "mt6701": 0x06, "mpu6050": 0x68, "adxl345": 0x53, "lsm303-accel": 0x19,
-    "qmc5883l": 0x0D, "hmc5883l": 0x1E, "lsm303-mag": 0x1E,
-}  # fmt: skip
-"""The usual address of each kind of sensor on I2C."""
 SPI_MODES = {"as5045": 2, "as5048a": 1, "mt6701-ssi": 2}
 """The mode of the clock for each kind of sensor on SPI."""
 
@@ -96,9 +91,10 @@ class SensorTable(Table):
     @property
     def i2c(self) -> tuple[int, int] | None:
         """Bus and address of the sensor chip; None where none is on I2C."""
-        if self.kind not in ADDRESSES:
+        usual, *_ = ADDRESSES.get(self.kind.upper(), (None,))
+        if usual is None:
             return None
-        return self.bus, ADDRESSES[self.kind] if self.address is None else self.address
+        return self.bus, usual if self.address is None else self.address
 
     def chips(self, key: str) -> list[I2CChip]:
         """The sensor chip, where it is on I2C. `key`: the key of its address in the file."""

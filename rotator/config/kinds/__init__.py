@@ -12,7 +12,7 @@ from typing import Any, Literal
 from rotator.config.kinds.controller import ControllerKind
 from rotator.config.kinds.digipot import DigipotKind
 from rotator.config.kinds.h_bridge import HBridgeKind
-from rotator.config.kinds.kind import Kind, Usual
+from rotator.config.kinds.kind import Kind
 from rotator.config.kinds.moteus import MoteusKind
 from rotator.config.kinds.relay_pot import RelayPot
 from rotator.config.kinds.relay_pulse import RelayPulse
@@ -52,15 +52,11 @@ class Rotor(Table):
         return KINDS[self.type].switched
 
 
-USUAL: Mapping[KindName, Usual] = {name: kind.usual for name, kind in KINDS.items()}
-"""The defaults of each kind that differ from those of a relay rotor with pots."""
-
-
 def with_usual(values: dict[str, Any]) -> dict[str, Any]:
     """The file's values, and the defaults of its kind of rotor for keys that it leaves out. `values` stays as it is."""
     rotor = values.get("rotor")
     table: dict[str, Any] = rotor if isinstance(rotor, dict) else {}
-    usual = next((places for kind, places in USUAL.items() if kind == table.get("type")), {})
+    usual = next((kind.usual for name, kind in KINDS.items() if name == table.get("type")), {})
     limits = {"min_deg", "max_deg"} if table.get("hardware") == "pi" else set()
     filled = dict(values)
     for place, keys in usual.items():

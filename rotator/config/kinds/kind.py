@@ -51,8 +51,10 @@ class EndStop:
     """Between these angles the axis is brought to rest: an edge of its contact lies between it and either stop."""
 
 
+@dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of rotor with its tables. Subclasses override the answers for parts that they have."""
+    """A kind of rotor. Its fields are its tables, with the names that `Config` has for them. Subclasses override the
+    answers for parts that they have."""
 
     switched: ClassVar[bool] = False
     """Relays switch the motors on and off."""
