@@ -9,6 +9,7 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterable
+from functools import cache
 
 from babel.messages.catalog import Catalog, Message
 from babel.messages.pofile import read_po, write_po
@@ -102,6 +103,7 @@ COLUMNS = re.compile(r"[ -\[\]-}]*")
 """What both character sets of an HD44780 have: ASCII without the backslash and the tilde."""
 
 
+@cache
 def texts() -> dict[tuple[str, str], str]:
     """Each message with its context (`display`, a view of the page, or none), and where it stands."""
     found: dict[tuple[str, str], str] = {}

@@ -10,6 +10,7 @@ import ast
 import itertools
 import re
 from collections.abc import Iterator
+from functools import cache
 from itertools import chain
 from pathlib import Path
 
@@ -145,6 +146,7 @@ def fault_texts() -> list[str]:
     return list(dict.fromkeys(_clean(text) for text in [*kinds, *others, *(each.text for each in Missing)]))
 
 
+@cache
 def display_texts() -> dict[str, int]:
     """The texts of the display, each with the columns that it has room for."""
     beside = (
