@@ -39,8 +39,8 @@ def passes(
 ) -> Iterator[Pass]:
     """Each pass that lies at least partly between the two times, in order, with its whole length.
 
-    `least_deg`: passes that stay lower are left out. A satellite that has decayed has no passes. `every_s`: between two
-    looks; what takes hours to cross the sky needs fewer.
+    `least_deg`: passes that stay lower are left out. A satellite that has decayed has none, and its last ends there.
+    `every_s`: between two looks; what takes hours to cross the sky needs fewer.
     """
     height = _height(target)
     on_s = from_s if height(from_s) > 0 else None
@@ -111,14 +111,14 @@ def _last_down_s(height: Callable[[float], float], from_s: float, every_s: float
 
 
 def _crossing_s(height: Callable[[float], float], down_s: float, up_s: float) -> float:
-    """When the target passes the horizon between a moment below it and a moment above."""
+    """When the target passes the horizon between a moment below it and a moment above, at which it is still there."""
     while abs(up_s - down_s) > EXACT_S:
         middle_s = (down_s + up_s) / 2
         if height(middle_s) > 0:
             up_s = middle_s
         else:
             down_s = middle_s
-    return (down_s + up_s) / 2
+    return up_s
 
 
 def _highest_s(height: Callable[[float], float], from_s: float, until_s: float) -> float:
@@ -134,7 +134,7 @@ def _highest_s(height: Callable[[float], float], from_s: float, until_s: float) 
             from_s, a, height_a = a, b, height_b
             b = from_s + _GOLDEN * (until_s - from_s)
             height_b = height(b)
-    return (from_s + until_s) / 2
+    return a if height_a >= height_b else b
 
 
 def _height(target: Target) -> Callable[[float], float]:

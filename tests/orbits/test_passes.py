@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from rotator.orbits.celestial import Body
 from rotator.orbits.earth import Site
 from rotator.orbits.moments import DAY_S
-from rotator.orbits.passes import passes
+from rotator.orbits.passes import EXACT_S, passes
 from rotator.orbits.satellite import Satellite
-from rotator.orbits.sight import Sight
+from rotator.orbits.sight import NotThere, Sight
 from tests.orbits import skyfield_oracle
 from tests.orbits.test_satellite import FLYING, PARIS
 
@@ -109,6 +109,23 @@ def test_the_polar_sun_stays_for_half_a_year() -> None:
     assert (midsummer.aos_s, midsummer.los_s) == (None, None)
     assert midsummer.highest.elevation_deg == pytest.approx(24.4, abs=0.1)
     assert list(passes(Body("sun", Site(89.0, 0.0)), december_s, december_s + DAY_S)) == []
+
+
+@dataclass(frozen=True)
+class Falling(Swinging):
+    fell_s: float = 0.0
+
+    def sight(self, utc_s: float) -> Sight:
+        if utc_s >= self.fell_s:
+            raise NotThere(f"{self.name} has decayed")
+        return super().sight(utc_s)
+
+
+@given(fell_s=st.floats(-900, 900))
+def test_the_last_pass_of_a_satellite_ends_as_it_comes_down(fell_s: float) -> None:
+    (last,) = passes(Falling(5400.0, 30.0, fell_s=fell_s), -2000.0, 2000.0)
+    assert last.los_s == pytest.approx(fell_s, abs=EXACT_S)
+    assert last.tca_s == pytest.approx(min(fell_s, 0.0), abs=2.0)
 
 
 def test_low_passes_can_be_left_out() -> None:
