@@ -11,7 +11,7 @@ import ipaddress
 import re
 from dataclasses import dataclass, field
 from http import HTTPStatus
-from urllib.parse import parse_qsl, urlsplit
+from urllib.parse import parse_qsl
 
 from rotator.exchange.orders import Order, Stop
 from rotator.protocols.aiming import aim, degrees, whole
@@ -23,6 +23,7 @@ PAGES = ("/", "/PstRotatorAz.htm")
 _END = re.compile(rb"\r?\n\r?\n")
 _REQUEST = re.compile(rb"GET (/[!-~]*) HTTP/1\.[01]")
 _HEADER = re.compile(rb"([!#$%&'*+.^_`|~0-9A-Za-z-]+):[ \t]*+([\x20-\x7e\x80-\xff\t]*)")
+_HOST = re.compile(r"(?:\[([0-9a-f:.]+)\]|([a-z0-9._-]+))(?::[0-9]*)?")
 _LOCAL = (".local", ".lan", ".home.arpa", ".internal")
 _SAME_SITE = ("", "none", "same-origin")
 
@@ -52,13 +53,13 @@ def is_own(request: Request) -> bool:
     A program names the box by its address or by a local name, and sends no origin; a browser says where it comes from.
     """
     headers = request.headers
-    host = urlsplit(f"//{headers.get('host', '')}").hostname or ""
-    if headers.get("sec-fetch-site", "") not in _SAME_SITE:
+    host = _HOST.fullmatch(headers.get("host", "").lower())
+    if host is None or headers.get("sec-fetch-site", "") not in _SAME_SITE:
         return False
     for where in (headers.get("origin"), headers.get("referer")):
-        if where and urlsplit(where).netloc != headers.get("host"):
+        if where and where.partition("://")[2].partition("/")[0] != headers["host"]:
             return False
-    return _is_local(host)
+    return _is_local(host[1] or host[2])
 
 
 def _is_local(host: str) -> bool:
@@ -66,7 +67,7 @@ def _is_local(host: str) -> bool:
     try:
         ipaddress.ip_address(host)
     except ValueError:
-        return bool(host) and ("." not in host or host.endswith(_LOCAL))
+        return "." not in host or host.endswith(_LOCAL)
     return True
 
 

@@ -88,6 +88,8 @@ def test_requests(new_box: type[BenchBox], target: str, code: int, orders: list[
         ("Host: 192.168.1.20", "Origin: https://evil.example"),
         ("Host: 192.168.1.20", "Origin: null"),
         ("Host: 192.168.1.20", "Referer: https://evil.example/page"),
+        ("Host: 192.168.1.20", "Origin: http://["),
+        ("Host: [",),
         ("Host: evil.example", "Sec-Fetch-Site: same-origin"),
         ("Host: 192.168.1.20.evil.example",),
         ("Host:",),
