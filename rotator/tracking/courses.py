@@ -21,8 +21,9 @@ from rotator.orbits.sight import NotThere, Sight
 from rotator.tracking.planned import Followed
 from rotator.tracking.travel import Travel
 
-LOOKS = 720
-"""Looks at the path of a pass: one every `STEP_S` seconds, and this number in a long pass."""
+LOOKS, LONG_S = 720, 43_200.0
+"""Looks at the path of a pass: one every `STEP_S` seconds, and this number in a long pass; in each half day of a
+target that stays up, however long the plan is: the plan of a day and that of three leave it for the same passes."""
 CUTS = 240
 CUT_S = 15.0
 """Cuts, where a pass may be begun late or left early: seconds between two cuts, or their number in a long pass."""
@@ -54,7 +55,7 @@ class SeenPass:
     @property
     def apart(self) -> int:
         """Looks from one cut to the next."""
-        return max(1, round(CUT_S / self.step_s), math.ceil(len(self.moments_s) / CUTS))
+        return max(1, round(CUT_S / self.step_s), math.ceil(min(len(self.moments_s), LOOKS) / CUTS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +75,7 @@ class Course:
 def seen_pass(found: Pass, followed: Followed, mount: Mount, from_s: float, until_s: float) -> SeenPass:
     begin_s = from_s if found.aos_s is None else max(found.aos_s, from_s)
     end_s = max(until_s, begin_s + STEP_S) if found.los_s is None else found.los_s
-    count = min(max(1, math.ceil((end_s - begin_s) / STEP_S)), LOOKS)
+    count = max(1, math.ceil((end_s - begin_s) / max(STEP_S, min(end_s - begin_s, LONG_S) / LOOKS)))
     moments_s = [begin_s + (end_s - begin_s) * look / count for look in range(count + 1)]
     directions, rates = [], []
     for at_s in moments_s:

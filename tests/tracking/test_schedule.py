@@ -252,6 +252,16 @@ def test_the_moon_is_followed_in_the_gaps_between_satellites() -> None:
     assert sum(each.name != "Moon" for each, _ in flights(plan)) > 10
 
 
+def test_a_plan_of_three_days_leaves_what_stays_up_as_often_as_a_plan_of_one() -> None:
+    """The calendar has three days, and one is flown."""
+    always = Arc("always up", EPOCH_S - 30 * DAY_S, 60 * DAY_S, 150.0, 0.1, 30.0)
+    followed = [Followed(satellites(1)[0], 2.0, 8.0), Followed(always)]
+    day, days = (schedule(followed, antenna(FULL), EPOCH_S, EPOCH_S + count * DAY_S) for count in (1, 3))
+    of_day = [round(each.found.tca_s) for each, _ in flights(day) if each.name != always.name]
+    assert of_day
+    assert of_day == [round(each.found.tca_s) for each, _ in flights(days) if each.name != always.name][: len(of_day)]
+
+
 def test_no_flight_leads_past_a_mast_that_no_elevation_clears() -> None:
     mast = Mount(Range(0, 360), Range(0, 90), sectors=(Sector("the mast", Range(170, 190), Range(0, 90), 0.0),))
     east, west = Arc("east", EPOCH_S + 600, 600, 20, 100, 40), Arc("west", EPOCH_S + 1500, 600, 340, -100, 40)
