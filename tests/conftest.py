@@ -50,7 +50,8 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """An example may take as long as a busy machine needs: what must be fast is measured, not guessed from one run.
+    """An example may take as long as a busy machine needs, also to be drawn: what must be fast is measured, not guessed
+    from one run.
 
     A search that names no number of its own tries a hundred in `make test-search`.
 
@@ -66,10 +67,11 @@ def pytest_configure(config: pytest.Config) -> None:
     if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
         signal.signal(signal.SIGHUP, lambda _number, _frame: None)
     if config.pluginmanager.hasplugin("hypothesispytest"):
-        from hypothesis import settings
+        from hypothesis import HealthCheck, settings
 
         present = settings.get_profile(settings.get_current_profile_name())
-        settings.register_profile("house", present, deadline=None, max_examples=examples(present.max_examples))
+        patient = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+        settings.register_profile("house", present, max_examples=examples(present.max_examples), **patient)
         settings.load_profile("house")
 
 
