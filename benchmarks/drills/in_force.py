@@ -242,7 +242,11 @@ class InForce:
         """The order leads to one of these angles; none: to any angle, for it is not judged where."""
         if axis != self.lacking:
             known = not self._shifted and event.who not in self._tracked.recognised
-            self.axes[axis].goals[event.who] = Goal(angles_deg if known else (), said_s=event.at_s)
+            goals = self.axes[axis].goals
+            if self._counts and (before := goals.get(event.who)) and before.way:
+                # The order is refused while one of the axes is not homed: its sender's jog goes on.
+                goals[f"{event.who} {BEFORE}"] = before
+            goals[event.who] = Goal(angles_deg if known else (), said_s=event.at_s)
 
     def _aim(self, event: Event, azimuth_deg: float | None, elevation_deg: float | None) -> None:
         """An order for a place; None: not for this axis. Where it leads is judged where that is plain: within the range

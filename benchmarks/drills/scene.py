@@ -71,6 +71,7 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         patience_s = NOISY_TRY_S
     elif config.rotor.type in ("moteus", "h-bridge", "controller", "stepper"):
         patience_s += truth.coasts_s  # it slows down under current
+    patience_s += config.kind.reversal_rest_s(axis)  # it may have to rest first
     timed = config.rotor.type == "relay-timed"
     slack_deg = (0.5 if timed else 1.0) + NOISE_SIGMAS * sim.pot_noise_deg + sim.backlash_deg + abs(sim.pot_bow_deg)
     return AxisCase(
