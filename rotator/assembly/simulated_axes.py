@@ -72,7 +72,7 @@ class SimulatedAxes:
     def _pot_line(self, axis: Axis) -> tuple[Point, Point]:
         """Reading and angle of the pot at both ends: in a kept world those of the file, as on the builder's mast."""
         table = self.config.axis(axis)
-        if self.config.keeps_files and table.calibration:
+        if table.calibration:
             return table.calibration[0], table.calibration[-1]
         low_raw, high_raw = SIM_CALIBRATION_RAW
         return (low_raw, table.min_deg), (high_raw, table.max_deg)

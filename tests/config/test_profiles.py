@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from firmware_sim.parts.pot import SimPot
 from rotator.assembly.settings import missing
+from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.cli.rehearse import simulated
 from rotator.config.axes import AxisTable
 from rotator.config.load import ConfigError, parse, shipped
@@ -62,6 +64,16 @@ def test_the_whole_range_lies_within_the_readings_that_are_believed(name: str) -
         assert min(raws) > table.lowest_reading + 0.015
         assert max(raws) < table.highest_reading - 0.015
         assert (table.calibration[0][1], table.calibration[-1][1]) == (table.min_deg, table.max_deg)
+
+
+@pytest.mark.parametrize("name", POTS)
+def test_its_simulated_pots_read_what_the_file_says_up_to_the_stops(name: str) -> None:
+    config = parse(shipped(name).replace('hardware = "pi"', 'hardware = "sim"'), name)
+    parts = SimulatedAxes(config, lambda: 0.0, None, (0.0, 0.0))
+    for axis in config.fitted:
+        table, motor, pot = config.axis(axis), parts.motor(axis), SimPot(parts.pot(axis), config.adc.supply_v)
+        for stop_deg in (motor.stop_low_deg, motor.stop_high_deg):
+            assert table.lowest_reading < pot.ratio(stop_deg) < table.highest_reading
 
 
 @pytest.mark.search
