@@ -84,13 +84,23 @@ class RunningBox:
         return dict(json_of(line))
 
 
+def fitted(status: BoxStatus) -> list[str]:
+    """The axes that the rotor has."""
+    return [axis for axis in AXES if status[axis]["fitted"]]
+
+
 def faults(status: BoxStatus, axes: Sequence[str] = AXES) -> list[str]:
     """The faults of these axes, each as a sentence."""
     return [str(status[axis]["fault"]["text"]) for axis in axes if status[axis]["fault"]]
 
 
+def all_stand(status: BoxStatus) -> str:
+    """Where the antenna is, in a few words."""
+    return ", ".join(stands(status, axis) for axis in fitted(status))
+
+
 def stands(status: BoxStatus, axis: str) -> str:
-    """Where the axis is, in a few words."""
+    """The same of one axis."""
     now = status[axis]
     if now["angle_deg"] is None:
         return f"{axis} not known"

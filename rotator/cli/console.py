@@ -19,7 +19,7 @@ from rotator.cli.failed import FAULTY, NOT_DONE, CommandFailed
 from rotator.cli.lines import agree, say
 from rotator.cli.reach import consoles
 from rotator.cli.stop import stop_boxes
-from rotator.control.refused import no_relay_in_doubt
+from rotator.control.refused import is_not_fitted, no_relay_in_doubt
 
 LOOK_S = 0.1
 CONFIRMED_S = 5.0
@@ -90,7 +90,7 @@ def resume(path: Path | None, *, go_on: bool) -> None:
 
 def let_go(path: Path | None, *, yes: bool) -> None:
     with RunningBox(path) as box:
-        agree("Without torque an antenna that is out of balance turns. Let go of both axes?", yes=yes)
+        agree("Without torque an antenna that is out of balance turns. Let go of it?", yes=yes)
         box.done("let-go")
     click.echo("The motors are without torque. Nothing moves until `rotator resume`.")
 
@@ -121,6 +121,8 @@ def _is_near(status: BoxStatus, axis: str, angle_deg: float) -> bool:
 def relays_checked(path: Path | None, axis: str, *, yes: bool) -> None:
     with RunningBox(path) as box:
         now = box.status()[axis]
+        if not now["fitted"]:
+            raise Refused(is_not_fitted(axis))
         if now["moving"]:
             raise Refused(f"{axis} turns: first `rotator stop`, then look at its relays")
         if not now["relays_in_doubt"]:

@@ -16,12 +16,11 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.box import AXES, ENDED, BoxStatus, Refused, RunningBox, faults, stands, typed
+from rotator.cli.box import AXES, ENDED, BoxStatus, Refused, RunningBox, all_stand, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed, NoBox
 from rotator.cli.lines import agree
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
-from rotator.control.refused import needs_no_homing
 from rotator.control.sky.angles import ZENITH_DEG
 from rotator.exchange.sources import CONSOLE
 from rotator.exchange.spoken import sender
@@ -50,7 +49,8 @@ def point(path: Path | None, azimuth_deg: float, elevation_deg: float | None, *,
 
 
 def park(path: Path | None, *, wait: bool) -> None:
-    _travel(path, "park", wait=wait)
+    if _travel(path, "park", wait=wait):
+        click.echo("Nothing else moves it until `rotator resume`.")
 
 
 def jog(path: Path | None, direction: str, seconds: float, *, wait: bool) -> None:
@@ -78,7 +78,7 @@ def home(path: Path | None, axis: str, *, yes: bool) -> None:
     with RunningBox(path) as box:
         before = box.status()
         if not before[axis]["homeable"]:
-            raise Refused(needs_no_homing(axis))
+            box.order(f"home {axis}")  # it says why not
         agree(f"Watch the antenna: {axis} turns to its low end. Ctrl-C stops it. Begin?", yes=yes)
         with _stops_unless_done(path):
             box.order(f"home {axis}")
@@ -102,14 +102,14 @@ def _travel(path: Path | None, words: str, *, wait: bool) -> BoxStatus | None:
     for axis in AXES:
         if missing := after[axis]["missing"]:
             raise CommandFailed(f"{axis} did not move: it needs {', '.join(missing)}")
-    click.echo(f"Arrived: {', '.join(stands(after, axis) for axis in AXES)}.")
+    click.echo(f"Arrived: {all_stand(after)}.")
     return after
 
 
 def _judge(after: BoxStatus, ours: str, axes: Sequence[str], order: str) -> None:
     """Raises CommandFailed where an axis did not do what was ordered. `ours`: this command, as the box calls it."""
     if failed := faults(after, axes):
-        click.echo(f"{', '.join(stands(after, axis) for axis in AXES)}.")
+        click.echo(f"{all_stand(after)}.")
         raise CommandFailed("\n         ".join(failed), FAULTY)
     if after["stopped_by"] and not after["storm_park"]:
         raise CommandFailed(

@@ -10,7 +10,7 @@ from hw.ports import Axis, Direction
 from rotator.control.refused import (
     is_not_fitted,
     measures_its_angle,
-    needs_no_homing,
+    no_homing,
     no_relay_in_doubt,
     turns_while_calibrated,
 )
@@ -68,7 +68,7 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
         case Calibrate(axis) if status.moving:
             return Refusal(turns_while_calibrated(axis.value))
         case Home(axis) if not status.axis(axis).homeable:
-            return Refusal(needs_no_homing(axis.value))
+            return Refusal(no_homing(axis.value, lost=Missing.HOMING in status.axis(axis).missing))
         case Confirm(axis) if not status.axis(axis).confirmable:
             return Refusal(measures_its_angle(axis.value))
         case Confirm(axis) if status.axis(axis).moving:

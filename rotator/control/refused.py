@@ -11,7 +11,10 @@ class Refused(ValueError):  # noqa: N818 - a sentence for a person; the program 
     """The order is not carried out. Except where a method says otherwise, everything stays as it was."""
 
 
-def needs_no_homing(axis: str) -> str:
+def no_homing(axis: str, *, lost: bool) -> str:
+    """Of an axis without an end stop to find. `lost`: it does not know its angle either."""
+    if lost:
+        return f"{axis} has no end stop to find: look where it points, then rotator confirm {axis} DEGREES"
     return f"{axis} knows its angle: it needs no homing"
 
 

@@ -59,6 +59,8 @@ class AxisStatus:
     fault: Fault | None = None
     fault_present: bool = False
     """Whether the cause of the fault is still seen: no `resume` ends the fault now."""
+    homeable: bool = False
+    """Whether it has an end stop to find."""
     homing: bool = False
     """Whether the axis searches its end stop."""
     notices: tuple[Notice, ...] = ()
@@ -91,11 +93,6 @@ class AxisStatus:
         nearest_deg = min(max(self.angle_deg, self.min_deg), self.max_deg)
         margin_deg = min(AT_END_NOISES * self.noise_deg, AT_END_MOST_DEG)
         return nearest_deg if abs(self.angle_deg - nearest_deg) <= margin_deg else self.angle_deg
-
-    @property
-    def homeable(self) -> bool:
-        """Whether it has an end stop to find: it counts pulses or time."""
-        return self.source is AngleSource.COUNTED or self.error_deg is not None
 
     @property
     def homes_first(self) -> bool:

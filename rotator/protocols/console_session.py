@@ -130,8 +130,9 @@ class ConsoleSession(LineTalk):
 def report(status: Status) -> list[str]:
     """The status as lines `name: value`. Lines without a value are left out."""
     lines = [f"{axis.value}: {_stands(status, axis)}" for axis in status.fitted]
-    wanted_deg = (status.wanted_azimuth_deg, status.wanted_elevation_deg)
-    if wanted_deg != (None, None):
+    both_deg = {Axis.AZIMUTH: status.wanted_azimuth_deg, Axis.ELEVATION: status.wanted_elevation_deg}
+    wanted_deg = [both_deg[axis] for axis in status.fitted]
+    if any(angle_deg is not None for angle_deg in wanted_deg):
         lines.append(
             "wanted: " + " ".join("---" if angle_deg is None else _shown(angle_deg) for angle_deg in wanted_deg)
         )

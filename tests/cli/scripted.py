@@ -97,10 +97,9 @@ class ScriptedConsole:
 def counted(azimuth_deg: float, *, turns: bool = False, by: str = COMMAND, **more: Any) -> Status:
     """A box that counts its azimuth."""
     drive = Direction.MINUS if turns else Direction.OFF
-    azimuth = AxisStatus(
-        0.0, 450.0, azimuth_deg, source=AngleSource.COUNTED, drive=drive, moving=turns, confirmable=True, **more
-    )
-    return Status(0.0, azimuth, AxisStatus(0.0, 180.0, 0.0, source=AngleSource.COUNTED), controlled_by=by)
+    counts: dict[str, Any] = {"source": AngleSource.COUNTED, "homeable": True}
+    azimuth = AxisStatus(0.0, 450.0, azimuth_deg, drive=drive, moving=turns, confirmable=True, **counts, **more)
+    return Status(0.0, azimuth, AxisStatus(0.0, 180.0, 0.0, **counts), controlled_by=by)
 
 
 def pointed(azimuth: AxisStatus, by: str = COMMAND, **more: Any) -> Status:

@@ -193,6 +193,11 @@ def test_what_needs_a_person_at_the_rotor_says_so() -> None:
     assert refused(Home(Axis.ELEVATION)) == "elevation knows its angle: it needs no homing"
     counted = status()
     counted = replace(counted, elevation=replace(counted.elevation, source=AngleSource.COUNTED))
+    lost = replace(counted, elevation=replace(counted.elevation, missing=(Missing.HOMING,)))
+    told = refusal(Home(Axis.ELEVATION), lost, MOUNT)
+    assert told is not None, "a counted axis without an end stop"
+    assert "no end stop to find" in told.reason
+    counted = replace(counted, elevation=replace(counted.elevation, homeable=True))
     assert refusal(Home(Axis.ELEVATION), counted, MOUNT) is None
     answer = refusal(Calibrate(Axis.AZIMUTH, high_end=True), status(moving=True), MOUNT)
     assert answer is not None

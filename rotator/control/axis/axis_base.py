@@ -169,6 +169,7 @@ class AxisBase(ABC, Generic[Settings]):
             calibration=calibration,
             fault=self.fault,
             fault_present=fault_present,
+            homeable=self.homeable,
             homing=self.homing,
             notices=notices,
             noise_deg=noise_deg,

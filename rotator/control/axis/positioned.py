@@ -23,12 +23,12 @@ from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
 from rotator.control.commands import HOLD, Command, Decision, Seek, Steer
-from rotator.control.refused import Refused, needs_no_homing
+from rotator.control.refused import Refused, no_homing
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.exchange.faults import LATE, Fault, FaultKind, Notice
+from rotator.exchange.faults import LATE, Fault, FaultKind, Missing, Notice
 from rotator.exchange.motor import Tries
 from rotator.exchange.status import AxisStatus
 
@@ -87,13 +87,9 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         return self.driven
 
     def home(self) -> None:
-        name = self._settings.axis.value
-        if self.homeable:
-            self._goal, self._ordered = SeekGoal(self._condition.scale), None
-        elif self.missing and self.confirmable:
-            raise Refused(f"{name} has no end stop to find: look where it points, then rotator confirm {name} DEGREES")
-        else:
-            raise Refused(needs_no_homing(name))
+        if not self.homeable:
+            raise Refused(no_homing(self._settings.axis.value, lost=Missing.HOMING in self.missing))
+        self._goal, self._ordered = SeekGoal(self._condition.scale), None
 
     def calibrate_end(self, *, high_end: bool) -> None:
         raise Refused(f"{self._settings.axis.value} knows its own angles: it needs no ends")

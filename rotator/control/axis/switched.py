@@ -23,7 +23,7 @@ from rotator.control.axis.switched_faults import SwitchedFaults
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.axis.vain_runs import IN_VAIN
 from rotator.control.commands import UNFED, Command, Decision, Feed, Run, Steer
-from rotator.control.refused import Refused, needs_no_homing
+from rotator.control.refused import Refused, no_homing
 from rotator.control.sky.goal import AimGoal
 from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
@@ -111,7 +111,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
 
     def home(self) -> None:
         if self._settings.homing is None:
-            raise Refused(needs_no_homing(self._settings.axis.value))
+            raise Refused(no_homing(self._settings.axis.value, lost=False))
         self._goal, self._ordered = HomeGoal(self._settings.homing.begin(None)), None
 
     def aim(self, goal: AimGoal) -> None:
