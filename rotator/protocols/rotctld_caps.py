@@ -87,14 +87,15 @@ def limits(status: Status) -> dict[str, float]:
 
     The axes' own, and at least 0 to 360 and 0 to 180 for a rotor with a smaller range: the box itself finds the axis
     angles for every direction. The lowest azimuth is below 0 only if the rotor's is, because CQRLOG takes a negative
-    one for a shifted scale. Of an axis that is not fitted 0 to 0, as Hamlib's own one-axis models have it.
+    one for a shifted scale. Also of an axis that is not fitted: with 0 to 0 Hamlib would send nothing of a satellite
+    that is up.
     """
     azimuth, elevation = status.azimuth, status.elevation
     return {
-        "min_az": min(0.0, azimuth.min_deg) if azimuth.fitted else 0.0,
-        "max_az": max(360.0, azimuth.max_deg) if azimuth.fitted else 0.0,
-        "min_el": min(0.0, elevation.min_deg) if elevation.fitted else 0.0,
-        "max_el": max(180.0, elevation.max_deg) if elevation.fitted else 0.0,
+        "min_az": min(0.0, azimuth.min_deg),
+        "max_az": max(360.0, azimuth.max_deg),
+        "min_el": min(0.0, elevation.min_deg),
+        "max_el": max(180.0, elevation.max_deg),
     }
 
 

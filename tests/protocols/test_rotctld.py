@@ -7,6 +7,7 @@ says nothing at all, this one answers: Gpredict's window freezes on silence.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -14,6 +15,7 @@ import pytest
 from hw.ports import Axis
 from rotator import __version__
 from rotator.exchange.orders import Aim, Order, Park, Stop
+from rotator.protocols.rotctld_caps import limits
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 from tests.tables import every_row
@@ -185,7 +187,7 @@ def test_positions_have_two_decimals(new_box: type[BenchBox]) -> None:
 
 
 @every_row(
-    ("azimuth", "elevation", "limits"),
+    ("azimuth", "elevation", "told"),
     [
         ((0, 450), (0, 180), (0, 450, 0, 180)),
         ((0, 360), (0, 90), (0, 360, 0, 180)),  # a direction past the zenith is turned into one before it
@@ -195,14 +197,21 @@ def test_positions_have_two_decimals(new_box: type[BenchBox]) -> None:
     ],
 )
 def test_dump_state_tells_what_the_box_accepts(
-    new_box: type[BenchBox], azimuth: tuple[float, float], elevation: tuple[float, float], limits: tuple[float, ...]
+    new_box: type[BenchBox], azimuth: tuple[float, float], elevation: tuple[float, float], told: tuple[float, ...]
 ) -> None:
     (state,) = RotctldSession(new_box(azimuth, elevation)).receive(b"\\dump_state\n")
     rows = state.decode().split("\n")
     assert rows[:2] == ["1", "603"]
-    assert tuple(map(float, rows[2:6])) == limits
-    assert tuple(float(row.partition("=")[2]) for row in rows[7:11]) == limits
+    assert tuple(map(float, rows[2:6])) == told
+    assert tuple(float(row.partition("=")[2]) for row in rows[7:11]) == told
     assert all(len(row) <= 62 for row in rows)
+
+
+def test_a_rotor_without_elevation_reports_the_sky_too(box: BenchBox) -> None:
+    """With 0 to 0 a client of Hamlib sends nothing while a satellite is up."""
+    status = box.status()
+    level = replace(status, elevation=replace(status.elevation, min_deg=0.0, max_deg=0.0, fitted=False))
+    assert (limits(level)["min_el"], limits(level)["max_el"]) == (0.0, 180.0)
 
 
 # --- faults
