@@ -15,6 +15,7 @@ from contextlib import suppress
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
+from shlex import quote
 
 import click
 
@@ -94,7 +95,7 @@ def config(name: str | None, to: Path | None, *, listed: bool, asked: bool) -> N
         raise click.UsageError("--list writes no file: rotator config NAME --to FILE")
     elif to is not None:
         tree.write_new(to, shipped(name))
-        click.echo(f"{to} is written. Next:\n  rotator run --config {to}")
+        click.echo(f"{to} is written. Next:\n  rotator run --config {quote(str(to))}")
     elif listed:
         for each in (SIMULATED, *profiles()):
             click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")
@@ -169,14 +170,14 @@ def _write(dialogue: Dialogue, path: Path, text: str, today: date) -> None:
 def _what_next(dialogue: Dialogue, path: Path, answers: dict[str, str]) -> None:
     dialogue.say(f"{path} is written. Next:")
     installed = path == INSTALLED
-    file = "" if installed else f" --config {path}"
+    file = "" if installed else f" --config {quote(str(path))}"
     next_ones = []
     if answers.get("port") == USB_CABLE:
         next_ones.append(f"sudo rotator setup usb-serial{file}")
     if answers["network"] != "here":
         next_ones.append(f"sudo rotator setup network{file}")
     if answers["hardware"] == "pi":
-        next_ones += [f"rotator doctor --config {path}", f"rotator calibrate --config {path}"]
+        next_ones += [f"rotator {word} --config {quote(str(path))}" for word in ("doctor", "calibrate")]
     next_ones.append("sudo systemctl restart rotator" if installed else f"rotator run{file}")
     for command in next_ones:
         dialogue.say(command, "  ", " " * 6)

@@ -13,8 +13,8 @@ from typing import Any
 
 import click
 
-from rotator.cli.box import RunningBox
-from rotator.cli.failed import CommandFailed
+from rotator.cli.box import RunningBox, faults
+from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.exchange.spoken import spoken
 from rotator.exchange.status import SHOWN_ERROR_DEG, time_left
 
@@ -49,12 +49,12 @@ def begin(path: Path | None, words: Sequence[str], *, clock_is_right: bool) -> N
             raise CommandFailed(spoken(state.removeprefix("ended: ")))
         if state.startswith("refused: "):
             raise CommandFailed(f"{state.removeprefix('refused: ')}; what was tracked goes on")
-        if _is_nothing(state):
-            return click.echo(_stays(target))
-        tracks = _tracks(box)
-    if tracks is None:
-        raise CommandFailed("the box has a plan, and the antenna did not take it up: `rotator where` tells more")
-    return click.echo(_sentence(tracks))
+        told = _stays(target) if _is_nothing(state) else _taken_up(box)
+        failed = faults(box.status())
+    click.echo(told)
+    if failed:
+        raise CommandFailed("\n         ".join(("a fault holds the antenna:", *failed)), FAULTY)
+    return None
 
 
 def _table(words: str) -> list[str] | None:
@@ -126,13 +126,13 @@ def _is_nothing(state: str) -> bool:
     return state == "off" or state.startswith("rests: ")
 
 
-def _tracks(box: RunningBox) -> dict[str, Any] | None:
-    """The status shows the plan a moment after the order."""
+def _taken_up(box: RunningBox) -> str:
+    """What the antenna does, which the status shows a moment after the order. Raises CommandFailed."""
     for _ in range(10):
         if (tracks := box.status()["tracks"]) is not None:
-            return dict(tracks)
+            return _sentence(tracks)
         time.sleep(LOOK_S)
-    return None
+    raise CommandFailed("the box has a plan, and the antenna did not take it up: `rotator where` tells more")
 
 
 def _sentence(tracks: dict[str, Any]) -> str:

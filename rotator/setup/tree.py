@@ -76,6 +76,8 @@ def write_new(path: Path, text: str) -> None:
     try:
         with path.open("x", encoding="utf-8") as file:
             file.write(text)
+    except FileExistsError:
+        raise SetupError(f"{path} is there already: give another name") from None
     except OSError as fault:
         raise SetupError(f"{path} cannot be written: {fault.strerror}") from fault
 

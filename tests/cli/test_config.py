@@ -29,7 +29,7 @@ def test_by_name(name: str) -> None:
 def test_the_list() -> None:
     lines = run("--list").output.splitlines()
     assert [line.split()[0] for line in lines] == ["simulated", *profiles()]
-    assert all(len(line.split()) > 3 for line in lines)
+    assert all(len(line.split()) > 3 and line.endswith(".") for line in lines)
 
 
 @pytest.mark.parametrize("name", ["nonsense", "../load", "G5500x", ""])
@@ -45,7 +45,7 @@ def test_a_shipped_one_is_written_once(tmp_path: Path, monkeypatch: pytest.Monke
     assert (done.exit_code, done.output) == (0, "rotator.toml is written. Next:\n  rotator run --config rotator.toml\n")
     assert Path("rotator.toml").read_text() == shipped(*words[:-2])
     Path("rotator.toml").write_text("mine\n")
-    assert str(run(*words).exception) == "rotator.toml cannot be written: File exists"
+    assert str(run(*words).exception) == "rotator.toml is there already: give another name"
     assert Path("rotator.toml").read_text() == "mine\n"
 
 
