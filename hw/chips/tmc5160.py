@@ -193,9 +193,10 @@ class Tmc5160:
             disabled=bool(pins & DRV_ENN),
         )
 
-    def microsteps(self) -> int:
-        """Its count now. Raises HardwareError."""
-        return signed(self.read(Register.XACTUAL)[1][0], 32)
+    def motion(self) -> tuple[int, int]:
+        """Its count now, and its speed as in VMAX, negative: down. Raises HardwareError."""
+        _, (place, speed) = self.read(Register.XACTUAL, Register.VACTUAL)
+        return signed(place, 32), signed(speed, 24)
 
     def clear_reset(self) -> None:
         """From now on a dip of the supply shows in `Look.was_reset`."""
@@ -227,6 +228,11 @@ def signed(value: int, bits: int) -> int:
 def speed(microsteps_per_s: float, clock_hz: float) -> int:
     """VMAX for that speed."""
     return min(FAST, round(abs(microsteps_per_s) * 2**24 / clock_hz))
+
+
+def microsteps_per_s(speed: int, clock_hz: float) -> float:
+    """Of a speed as in VMAX."""
+    return speed * clock_hz / 2**24
 
 
 def acceleration(microsteps_per_s2: float, clock_hz: float) -> int:

@@ -29,6 +29,7 @@ from hw.chips.tmc5160 import (
     Tmc5160,
     acceleration,
     current,
+    microsteps_per_s,
     speed,
     step_time,
 )
@@ -211,15 +212,15 @@ class StepperAxis:
         """Be at that angle now, and move on at that rate until then."""
         self.homing = None
         self._ready()
-        place_deg = self._chip.microsteps() / self.spec.per_deg
-        left_s = until_s - now_s
+        motion = self._chip.motion()
+        place_deg = motion[0] / self.spec.per_deg
         if rate_dps:
             wanted_dps = rate_dps + GAIN * (angle_deg - place_deg)
             going_dps = min(max(wanted_dps, -self.spec.speed_dps), self.spec.speed_dps)
             goal_deg = math.copysign(math.inf, going_dps)
         else:
             going_dps, goal_deg = self.spec.speed_dps, angle_deg
-        self._run_to(place_deg, goal_deg, abs(going_dps), left_s)
+        self._run_to(motion, goal_deg, abs(going_dps), until_s - now_s)
         self.until_s = until_s
 
     def seek(self, until_s: float, now_s: float) -> None:
@@ -240,11 +241,16 @@ class StepperAxis:
     def _by_switch(self) -> bool:
         return self.spec.home is Home.SWITCH
 
-    def _run_to(self, place_deg: float, goal_deg: float, speed_dps: float, left_s: float) -> None:
-        """From that place to the goal at that speed, as far as it comes in `left_s` and then needs to stop."""
-        per_deg = self.spec.per_deg
-        reach_deg = speed_dps * left_s + speed_dps**2 / (2.0 * self.spec.accel_dps2)
-        target_deg = min(max(goal_deg, place_deg - reach_deg), place_deg + reach_deg)
+    def _run_to(self, motion: tuple[int, int], goal_deg: float, speed_dps: float, left_s: float) -> None:
+        """From its place to the goal at that speed, as far as it comes in `left_s` from its speed now, and then needs
+        to stop."""
+        per_deg, accel_dps2 = self.spec.per_deg, self.spec.accel_dps2
+        place_deg = motion[0] / per_deg
+        way = math.copysign(1.0, goal_deg - place_deg)
+        now_dps = way * microsteps_per_s(motion[1], self.spec.clock_hz) / per_deg
+        then_dps = min(max(speed_dps, now_dps - accel_dps2 * left_s), now_dps + accel_dps2 * left_s)
+        reach_deg = (now_dps + then_dps) / 2.0 * left_s + then_dps * abs(then_dps) / (2.0 * accel_dps2)
+        target_deg = place_deg + way * min(abs(goal_deg - place_deg), reach_deg)
         self._chip.write(Register.XTARGET, round(target_deg * per_deg))
         self._chip.write(Register.VMAX, speed(speed_dps * per_deg, self.spec.clock_hz))
         self.under_way = True
@@ -258,10 +264,11 @@ class StepperAxis:
         look = self._ready()
         if look.at_speed and look.speed and not self._watched and not self._by_switch:
             self._guard(stall=True, switch=False)
-        self._run_to(look.microsteps / self.spec.per_deg, -math.inf, self.spec.home_dps, left_s)
+        self._run_to((look.microsteps, look.speed), -math.inf, self.spec.home_dps, left_s)
 
     def run_back(self, goal_deg: float, left_s: float) -> None:
-        self._run_to(self._ready().microsteps / self.spec.per_deg, goal_deg, self.spec.home_dps, left_s)
+        look = self._ready()
+        self._run_to((look.microsteps, look.speed), goal_deg, self.spec.home_dps, left_s)
         # After its new target: freed with the old one, it would press on.
         if self._guarded:
             self._guard(stall=False, switch=False)

@@ -92,14 +92,28 @@ class Bench:
             self.drive.angle_deg(AZ)
 
 
-def test_a_program_that_dies_leaves_no_motor_running() -> None:
-    """Without a guard: the chip itself has no further target."""
+@pytest.mark.parametrize("driven_s", [0.05, 0.4, 1.0, 4.0])
+def test_a_program_that_dies_leaves_no_motor_running(driven_s: float) -> None:
+    """Without a guard: the chip itself has no further target than it reaches in its last command, and needs to stop."""
     bench = Bench()
-    bench.go(360.0, 4.0)
-    at_deg = bench.at_deg
+    bench.go(360.0, driven_s)
+    at_deg, now_dps = bench.at_deg, min(6.0 * driven_s, 12.0)
+    then_dps = min(now_dps + 6.0 * 0.25, 12.0)
     bench.clock._alarms.clear()
     bench.clock.sleep(30.0)
-    assert 0.0 < bench.at_deg - at_deg <= 12.0 * 0.25 + 12.0**2 / 12.0 + 0.1
+    assert 0.0 < bench.at_deg - at_deg <= (now_dps + then_dps) / 2.0 * 0.25 + then_dps**2 / 12.0 + 0.1
+
+
+def test_renewed_orders_gather_the_whole_speed_and_turn_back() -> None:
+    bench = Bench()
+    bench.go(360.0, 2.0)
+    at_deg = bench.at_deg
+    bench.go(360.0, 1.0)
+    assert bench.at_deg - at_deg == pytest.approx(12.0, abs=0.2)
+    bench.go(30.0, 3.0)
+    at_deg = bench.at_deg
+    bench.go(30.0, 1.0)
+    assert bench.at_deg - at_deg < -6.0
 
 
 def test_an_expired_order_brakes_and_the_watch_hears_of_it() -> None:
