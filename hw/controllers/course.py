@@ -220,6 +220,11 @@ class Course:
         return now_s - self._by_hand_s < BY_HAND_SHOWN_S
 
     @property
+    def waits(self) -> bool:
+        """Whether it has nothing to turn to: its controller does not bear its next target yet. Its motor is off."""
+        return self.wish is not None and not self.left_to_hand and (self.sent_deg is None or self._arrived)
+
+    @property
     def left_to_hand(self) -> bool:
         """Whether it is not where it was sent because a person has turned it since."""
         return self._left_to_hand_deg is not None

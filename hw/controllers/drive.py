@@ -242,3 +242,8 @@ class ControllerDrive:
         with self._changed:
             course = self.unit(axis).courses[axis]
             return course.by_hand(self._clock()), course.left_to_hand
+
+    def waits(self, axis: Axis) -> bool:
+        """Whether its controller does not bear its next target yet, and its motor is off meanwhile."""
+        with self._changed:
+            return self.unit(axis).courses[axis].waits

@@ -53,6 +53,7 @@ class ControllerRotor(PositionedRotor[ControllerDrive]):
             fault=self._fault(axis),
             notice=BY_HAND if by_hand else LEFT if left else None,
             settling=by_hand or left,
+            waits=self._drive.waits(axis),
             missed=self._drive.unit(axis).missed,
             ends=self._ends(axis),
         )

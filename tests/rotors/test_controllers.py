@@ -128,3 +128,36 @@ def test_a_stop_goes_to_the_controller_also_when_a_hand_turns_it(gs232: Box) -> 
     gs232.order(Stop())
     gs232.run(0.1)
     assert world(gs232).lines[0].stops == 1
+
+
+@pytest.mark.parametrize("every_s", [1.0, 3.0])
+def test_a_motor_that_stands_is_told_in_time_however_seldom_its_controller_bears_a_target(every_s: float) -> None:
+    box = behind("gs232b", target_every_s=every_s)
+    box.order(Aim(250.0, 90.0))
+    box.run(3.0)
+    box.world.inject("azimuth-motor-stalled")
+    assert told_in_s(box, AZ, "axis does not follow") <= TOLD_S + 0.2
+    box.close()
+
+
+@pytest.mark.parametrize("speed_dps", [1.5, 6.0])
+def test_a_controller_that_bears_a_target_every_three_seconds_turns_back_and_on_without_a_fault(
+    speed_dps: float,
+) -> None:
+    motor: dict[str, Any] = {"azimuth": {"speed_dps": speed_dps}}
+    box = Box(CONTROLLER, controller={"protocol": "gs232b", "target_every_s": 3.0}, sim=motor, **motor)
+    box.run(2.0)
+    for target_deg in (250.0, 20.0, 30.0, 250.0, 60.0):
+        box.order(Aim(target_deg, 30.0))
+        box.run(4.3)
+        assert box.status.faults == ()
+    assert box.arrives(100.0, 30.0)
+    box.run(5.0)
+    # The elevation's target goes out at once, and the azimuth has to wait for three seconds.
+    box.order(Aim(None, 60.0))
+    box.run(0.3)
+    box.order(Aim(200.0, 60.0))
+    box.run(6.0)
+    assert box.status.faults == ()
+    assert box.boom_deg(AZ) > 101.0
+    box.close()

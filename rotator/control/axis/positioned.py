@@ -128,7 +128,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         return self._held.see(now_s, self._readings, self._sensing.angle_deg, holds=self._sent is None)
 
     def _straying(self, now_s: float) -> Fault | None:
-        steer = self._sent.steer if self._sent else None
+        steer = self._sent.steer if self._sent and not self._condition.waits else None
         noise_deg = self._readings.noise_deg if self._settings.source is AngleSource.MEASURED else 0.0
         return self._stray.see(now_s, steer, self._sensing.angle_deg, noise_deg, settling=self._condition.settling)
 

@@ -33,6 +33,8 @@ class Condition:
     """When this number changes, the same reading means another place from then on."""
     settling: bool = False
     """The axis does not follow yet, for a reason that passes by itself."""
+    waits: bool = False
+    """Its drive has not passed its latest order on yet: as though it held meanwhile."""
     changes: int = 0
     """How often its contact has changed."""
     missed: int = 0

@@ -36,7 +36,7 @@ SLOW_SHARE = 0.25
 
 class StrayWatch:
     """`speed_dps`: of the motor; `accel_dps2`: how hard it brakes, None: it stops at once. `rest_s`: so long its drive
-    lets it rest before it turns the other way.
+    lets it rest before it turns the other way; only a move that takes over from another one may need that.
 
     `near_deg`: it may rest this far from its place. `stray_deg`: further from it, it strays.
     """
@@ -54,7 +54,8 @@ class StrayWatch:
         self._axis = axis
         self._stray_deg = stray_deg
         self._speed_dps = speed_dps
-        self._stray_s = rest_s + max(STRAY_S, _turned_back_s(speed_dps, accel_dps2) if accel_dps2 else 0.0)
+        self._stray_s = max(STRAY_S, _turned_back_s(speed_dps, accel_dps2) if accel_dps2 else 0.0)
+        self._rest_s, self._rests_until_s = rest_s, 0.0
         self._apart_deg = max(stray_deg, 2.0 * near_deg)
         """A target that has moved this far has left the dead band, from any place of the axis in it."""
         self._latest_deg: deque[float] = deque(maxlen=MEAN_READINGS)
@@ -119,7 +120,10 @@ class StrayWatch:
         if elsewhere:
             self._vain.hold()  # another move begins
             if _moved_deg(self._kept) >= max(MOVES_DEG, COMING_NOISES * noise_deg):
-                self._kept.clear()  # it moves, and may have to turn back
+                # It moves, and may have to turn back.
+                self._kept.clear()
+                self._rests_until_s = self._sent_for_s + self._rest_s
+        settling = settling or self._sent_for_s < self._rests_until_s
         ahead_deg = steered.angle_deg - angle_deg
         near = abs(ahead_deg) < self._stray_deg
         runs_on = abs(steered.rate_dps) > SLOW_SHARE * self._speed_dps
