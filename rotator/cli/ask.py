@@ -19,6 +19,7 @@ from shlex import quote
 
 import click
 
+from rotator.cli.lines import say
 from rotator.config.load import SIMULATED, parse, profiles, shipped
 from rotator.config.places import INSTALLED
 from rotator.setup import tree
@@ -98,7 +99,7 @@ def config(name: str | None, to: Path | None, *, listed: bool, asked: bool) -> N
         click.echo(f"{to} is written. Next:\n  rotator run --config {quote(str(to))}")
     elif listed:
         for each in (SIMULATED, *profiles()):
-            click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")
+            say(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}", indent=11)
     else:
         click.echo(shipped(name), nl=False)
 

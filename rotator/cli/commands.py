@@ -13,7 +13,7 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import click
 from click.exceptions import NoArgsIsHelpError
@@ -77,9 +77,9 @@ class NumbersCommand(click.Command):
         return super().parse_args(ctx, [MINUS + arg[1:] if _NEGATIVE.fullmatch(arg) else arg for arg in args])
 
 
-def draws() -> bool:
-    """Whether the output is a terminal that a picture can be drawn on now."""
-    return in_front(sys.stdout) and os.environ.get("TERM") not in ("dumb", "unknown")
+def draws(stream: TextIO | None = None) -> bool:
+    """Whether the stream, or else the output, is a terminal that a picture can be drawn on now."""
+    return in_front(stream or sys.stdout) and os.environ.get("TERM") not in ("dumb", "unknown")
 
 
 def command(

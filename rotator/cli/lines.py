@@ -21,7 +21,7 @@ NARROWEST = 20
 
 def say(text: str, *, err: bool = False, indent: int = 2) -> None:
     """`indent`: the spaces before what is left of a broken line."""
-    width = _columns(err=err)
+    width = columns(err=err)
     click.echo(text if width is None else wrapped(text, width, indent), err=err)
 
 
@@ -34,7 +34,7 @@ def wrapped(text: str, width: int, indent: int) -> str:
     )
 
 
-def _columns(*, err: bool) -> int | None:
+def columns(*, err: bool) -> int | None:
     """The width of the terminal behind the stream; None: there is none, or it does not know."""
     try:
         columns = os.get_terminal_size((sys.stderr if err else sys.stdout).fileno()).columns

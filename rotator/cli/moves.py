@@ -16,9 +16,10 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.box import AXES, ENDED, BoxStatus, Refused, RunningBox, all_stand, faults, stands, typed
+from rotator.cli.box import AXES, ENDED, BoxStatus, Refused, RunningBox, all_stand, faults, fitted, stands, typed
+from rotator.cli.commands import draws
 from rotator.cli.failed import FAULTY, CommandFailed, NoBox
-from rotator.cli.lines import agree
+from rotator.cli.lines import agree, columns
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
 from rotator.control.sky.angles import ZENITH_DEG
@@ -97,7 +98,7 @@ def _travel(path: Path | None, words: str, *, wait: bool) -> BoxStatus | None:
         if not wait:
             click.echo("The box has the order. `rotator where` shows what comes of it.")
             return None
-        after, ours = _watched(box, before, AXES)
+        after, ours = _watched(box, before, fitted(before))
     _judge(after, ours, AXES, words.partition(" ")[0])
     for axis in AXES:
         if missing := after[axis]["missing"]:
@@ -162,11 +163,11 @@ def _progress(status: BoxStatus, axis: str) -> str:
 @contextmanager
 def _row() -> Iterator[Callable[[str], None]]:
     """One row of a terminal that is written over; nothing where the errors go to no terminal."""
-    shown = sys.stderr.isatty()
+    shown = draws(sys.stderr)
 
     def show(text: str) -> None:
         if shown:
-            click.echo(f"\r\x1b[K{text}", nl=False, err=True)
+            click.echo(f"\r\x1b[K{text[: columns(err=True)]}", nl=False, err=True)
 
     try:
         yield show

@@ -49,6 +49,16 @@ def on_its_way(angle_deg: float, *, moving: bool = True) -> Status:
     return pointed(AxisStatus(0.0, 450.0, angle_deg, target_deg=180.0, tolerance_deg=4.0, moving=moving))
 
 
+@pytest.mark.parametrize(("term", "rows"), [("xterm", 1), ("dumb", 0)])
+def test_its_one_row_fits_into_a_narrow_terminal(
+    scripted: Any, start_in_terminal: StartInTerminal, config: Path, term: str, rows: int
+) -> None:
+    scripted(on_its_way(100), on_its_way(150), on_its_way(178.2, moving=False))
+    moving = start_in_terminal("point", 180, 45, "--config", config, term=term, columns=30)
+    way = moving.until("Arrived").removesuffix("Arrived").split("\r\x1b[K")
+    assert max(map(len, way)) == 30 * rows, way
+
+
 @pytest.mark.parametrize("order", [["point", 180, 45], ["park"], ["jog", "up", 1]])
 def test_without_waiting(scripted: Any, rotator_here: Rotator, config: Path, order: list[Any]) -> None:
     console = scripted(on_its_way(100))

@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 
-from rotator.exchange.status import AxisStatus
+from hw.ports import Axis
+from rotator.exchange.faults import Fault, FaultKind
+from rotator.exchange.status import AxisStatus, Flown
 from tests.cli.scripted import Rotator, pointed
 
 STANDS = pointed(AxisStatus(0.0, 450.0, 200.0), by="")
@@ -39,3 +41,17 @@ def test_what_it_tells(
     scripted(STANDS).states = states
     done = rotator_here("track", *words.split(), "--config", config)
     assert (done.returncode, done.stdout + done.stderr) == (code, told)
+
+
+@pytest.mark.parametrize(("words", "told"), [("200 30", "The antenna goes there"), ("iss", "ISS is up")])
+def test_a_fault_that_holds_the_antenna_is_told(
+    scripted: Any, rotator_here: Rotator, config: Path, words: str, told: str
+) -> None:
+    fault = Fault(FaultKind.POT_OPEN, Axis.AZIMUTH, "reads 0.000", "0.02 to 0.98")
+    flown = Flown("ISS", begin_s=0.0, end_s=600.0, expected_error_deg=0.0)
+    held = pointed(AxisStatus(0.0, 450.0, 200.0, fault=fault), by="", flown=flown)
+    scripted(held).states = ["off" if words[0] == "2" else "tracking"]
+    done = rotator_here("track", *words.split(), "--config", config)
+    assert done.returncode == 3
+    assert done.stdout.startswith(told)
+    assert str(fault) in done.stderr
