@@ -63,7 +63,7 @@ class Rig(loop_rig.Rig):
         return float(sum(abs(now - then) for now, then in zip(self.world.antenna(), before, strict=True)))
 
 
-@pytest.mark.quiet
+@pytest.mark.long
 @every_row(
     "orders",
     [
@@ -122,7 +122,7 @@ PAGE_ORDERS: list[Order] = [
 ]
 
 
-@pytest.mark.quiet
+@pytest.mark.long
 @pytest.mark.parametrize("order", PAGE_ORDERS, ids=lambda order: type(order).__name__)
 def test_what_was_ordered_on_a_page_that_stands_still_ends(order: Order) -> None:
     """Its STOP would not arrive either."""

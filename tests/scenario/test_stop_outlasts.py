@@ -74,7 +74,7 @@ class Run:
         return self.world.antenna() != pytest.approx(stood, abs=0.5)
 
 
-@pytest.mark.quiet
+@pytest.mark.long
 @pytest.mark.parametrize("by", [CONSOLE, BROWSER, PANEL])
 def test_after_a_stop_and_a_kill_no_order_of_a_link_moves_it_until_resume(tmp_path: Path, by: Source) -> None:
     run = Run(tmp_path)
