@@ -96,11 +96,12 @@ class Api:
         ]
         app = web.Application(middlewares=[self._entrance.guarded], client_max_size=MOST_BODY)
         app.on_response_prepare.append(add_headers)
+        add = {"GET": app.router.add_get, "POST": app.router.add_post}  # HEAD, too, where there is a GET
         for route in routes:
-            app.router.add_route(route.method, route.path, self._entrance.guarding(route))
+            add[route.method](route.path, self._entrance.guarding(route))
         for path in ("/api", "/api/"):
             app.router.add_get(path, self._api_page)
-        app.router.add_route("GET", "/{path:.*}", self._asset)
+        app.router.add_get("/{path:.*}", self._asset)
         return app
 
     # --- what is read

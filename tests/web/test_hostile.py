@@ -115,6 +115,9 @@ async def test_every_answer_forbids_foreign_frames_and_foreign_scripts(box: Box)
             assert "frame-ancestors 'none'" in policy
             assert "unsafe" not in policy
             assert "Access-Control-Allow-Origin" not in answer.headers
+            async with box.http.head(f"{box.url}{path}") as head:
+                asked = answer.status, answer.headers["Content-Type"]
+                assert (head.status, head.headers["Content-Type"]) == asked
 
 
 @pytest.mark.parametrize(
