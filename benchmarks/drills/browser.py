@@ -16,7 +16,8 @@ from benchmarks.drills.script import CLOCK, PAGE, Arg, Event
 from hw.ports import Direction
 from rotator.exchange.orders import Jog
 from rotator.exchange.sources import Source
-from rotator.protocols.console import PersonCommand, parse
+from rotator.protocols.console import parse
+from rotator.protocols.methods import PersonCommand
 from rotator.protocols.operating import Operating
 from rotator.protocols.panel_words import TURNS
 from rotator.protocols.session import Box, Tracking

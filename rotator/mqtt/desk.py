@@ -8,11 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 from rotator.exchange.foreign import json_of
-from rotator.protocols.methods import METHODS, Method, WrongValuesError
+from rotator.protocols.methods import BY_NAME, METHODS, Method, WrongValuesError
 from rotator.protocols.operating import Operating
 
 LONGEST = 4096
-_METHODS = {method.name: method for method in METHODS}
 _MAY_STOP = '[mqtt] may = "{}": messages {}'
 _WORDS = {"look": "do nothing", "stop": "only stop"}
 
@@ -36,9 +35,9 @@ class Desk:
         return answer | {"error": refused} if refused else answer
 
     def _refused(self, name: str, payload: bytes, *, kept: bool) -> str:
-        method = _METHODS.get(name)
+        method = BY_NAME.get(name)
         if method is None:
-            return f"there is no method {name[:40]!a}: {', '.join(_METHODS)}"
+            return f"there is no method {name[:40]!a}: {', '.join(BY_NAME)}"
         if kept:
             return "the broker has kept this message: send it without retain"
         if refused := self._refused_by_right(method):

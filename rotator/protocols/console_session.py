@@ -14,8 +14,9 @@ from hw.ports import Axis, Direction
 from rotator.exchange.orders import Mode, Release
 from rotator.exchange.spoken import held, sender, spoken
 from rotator.exchange.status import Flown, Status, time_left
-from rotator.protocols.console import TURN_WORDS, VERBS, Ask, Pair, TableLine, Track, TrackTable, parse
+from rotator.protocols.console import TURN_WORDS, VERBS, Ask, Pair, TableLine, TrackTable, parse
 from rotator.protocols.lines import LineTalk
+from rotator.protocols.methods import Track
 from rotator.protocols.operating import Operating
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Box, Pairing, Tracking

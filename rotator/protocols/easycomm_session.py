@@ -103,9 +103,7 @@ def _orders(kind: str, words: list[Word]) -> Iterator[Order]:
     match kind:
         case "aim":
             angles_deg = {word.verb: word.value for word in words}
-            order = aim(angles_deg.get("AZ"), angles_deg.get("EL"))
-            if order is not None:
-                yield order
+            yield aim(angles_deg.get("AZ"), angles_deg.get("EL"))
         case "stop":
             axes = {_STOPS[word.verb] for word in words}
             yield Stop() if len(axes) == len(_STOPS) else Stop(tuple(axes))

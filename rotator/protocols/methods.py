@@ -1,16 +1,16 @@
-"""What a person may ask of the box, as methods with named values: for the page, and for programs that speak JSON.
+"""What a person may ask of the box, as methods with named values: for page, console, and programs that speak JSON.
 
-Knows each method's name, its values and the command that they make: the same commands as on the console, whose words
-for them are in `console`. Does not know HTTP, nor what a command makes the box do.
+Knows each method's name, its values and the command that they make. `console` reads the same values from words. Does
+not know HTTP, nor what a command makes the box do.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from hw.ports import Axis
+from hw.ports import Axis, Direction
 from rotator.control.admission import WIDEST_DEG
 from rotator.exchange.orders import (
     Confirm,
@@ -20,6 +20,7 @@ from rotator.exchange.orders import (
     LetGo,
     Mode,
     Nudge,
+    Order,
     Park,
     RelaysChecked,
     Release,
@@ -29,20 +30,50 @@ from rotator.exchange.orders import (
 )
 from rotator.orbits.demo_pass import FAST
 from rotator.protocols.aiming import aim
-from rotator.protocols.console import (
-    LONGEST_JOG_S,
-    MOST_NUDGE_DEG,
-    PULSE_S,
-    ClockIsRight,
-    Demo,
-    GoOn,
-    PersonCommand,
-    Pulse,
-    Track,
-)
 from rotator.protocols.panel_words import TURNS
 
 LONGEST_TARGET = 100
+LONGEST_JOG_S = 5.0
+PULSE_S = 0.2
+MOST_NUDGE_DEG = 20.0
+"""Further away it is another target: then point there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """Track the target of these words. `off`: track no target. No words: ask what the box tracks."""
+
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class GoOn:
+    """Let it move again, and track what was tracked before the stop."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClockIsRight:
+    """A person says that this computer's clock is right."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pulse:
+    """Close one relay for a moment: a person sees which way it turns, and that no other relay closes."""
+
+    axis: Axis
+    direction: Direction
+
+
+@dataclass(frozen=True, slots=True)
+class Demo:
+    """Fly the demo pass over the continent of this time zone, this many times as fast as life."""
+
+    zone: str
+    times: int
+
+
+PersonCommand = Order | Track | GoOn | ClockIsRight | Pulse | Demo
+"""What a person may ask for on the page as well."""
 
 
 class WrongValuesError(ValueError):
@@ -144,22 +175,28 @@ _ELEVATION = Number("elevation_deg", *WIDEST_DEG[Axis.ELEVATION], "above the hor
 _ANGLE = Number("angle_deg", *WIDEST_DEG[Axis.AZIMUTH], "where the axis stands, in true degrees", 0)
 _TURN = Choice("turn", tuple(TURNS), "clockwise, counter-clockwise, up or down")
 
+
+def _confirm(axis: str, angle_deg: float) -> Confirm:
+    range_deg = WIDEST_DEG[Axis(axis)]
+    return Confirm(Axis(axis), replace(_ANGLE, least=range_deg[0], most=range_deg[1]).read(angle_deg))
+
+
 METHODS = (
     Method("stop", "Stop everything; nothing moves until `resume`", lambda: Stop(latch=True), free=True),
     Method("resume", "Let it move again, and acknowledge faults", Release),
-    Method("go-on", "The same, and track what a stop, a fault or a jog has ended: `goes_on_with` of the picture", GoOn),
+    Method("go-on", "Let it move again, and track what a stop, a fault or a jog has ended", GoOn),
     Method("take", "Take the antenna: it stops, and programs do not move it until `give-back`", Take),
-    Method("give-back", "Let programs move the antenna again", GiveBack),
+    Method("give-back", "Let programs move it again, after you or a person on the page have held it", GiveBack),
     Method(
         "mode",
-        "Who moves the antenna: programs (auto), you alone (manual), your buttons alone (jog), nobody (park)",
+        "Who moves it: programs (auto), you alone (manual), your jogs alone (jog), nobody (park)",
         lambda mode: SetMode(Mode(mode)),
         (Choice("mode", tuple(mode.value for mode in Mode), "as the switch of a front panel"),),
     ),
     Method("point", "Point there", aim, (_AZIMUTH, _ELEVATION)),
     Method(
         "jog",
-        "Turn for this time",
+        f"Turn for this time, {LONGEST_JOG_S:g} s at most",
         lambda turn, seconds: Jog(*TURNS[turn], seconds),
         (_TURN, Number("seconds", 0.05, LONGEST_JOG_S, "how long", 0.5)),
     ),
@@ -171,11 +208,15 @@ METHODS = (
     ),
     Method(
         "nudge",
-        "Shift the target in force by this angle, while it is tracked on; 0 ends it, and so does the end of the pass",
+        "Shift the target in force by so much, until the pass ends; 0 ends it",
         lambda axis, offset_deg: Nudge(Axis(axis), offset_deg, of_pass=True),
         (_AXIS, Number("offset_deg", -MOST_NUDGE_DEG, MOST_NUDGE_DEG, "from where it is computed", 1)),
     ),
-    Method("park", "Go to the park position, and stay there until `resume`", lambda: Park(storm=True)),
+    Method(
+        "park",
+        "Go to the park position, even while a program tracks, and stay there until `resume`",
+        lambda: Park(storm=True),
+    ),
     Method(
         "track",
         "Track a satellite, Sun, Moon, a place, a country, a favourite; `plan`: what the file follows; `off`: nothing",
@@ -192,19 +233,24 @@ METHODS = (
         ),
         harmless=True,
     ),
-    Method("clock-is-right", "You have seen that the box's clock is right: `track` needs it", ClockIsRight),
-    Method("home", "Find the low end stop of an axis that counts pulses", lambda axis: Home(Axis(axis)), (_AXIS,)),
+    Method("clock-is-right", "You have seen that this computer's clock is right: `track` needs it", ClockIsRight),
     Method(
-        "confirm",
-        "Give the angle of an axis that cannot know it",
-        lambda axis, angle_deg: Confirm(Axis(axis), angle_deg),
-        (_AXIS, _ANGLE),
+        "home",
+        "Find the low end stop of an axis that counts pulses: watch the antenna",
+        lambda axis: Home(Axis(axis)),
+        (_AXIS,),
     ),
+    Method("confirm", "Give the angle of an axis that cannot know it", _confirm, (_AXIS, _ANGLE)),
     Method(
         "relays-checked",
         "You have seen that both relays of an axis are open",
         lambda axis: RelaysChecked(Axis(axis)),
         (_AXIS,),
     ),
-    Method("let-go", "Motors without torque: an antenna out of balance turns", LetGo),
+    Method(
+        "let-go",
+        "Motors without torque: an antenna out of balance turns; nothing moves until `resume`",
+        LetGo,
+    ),
 )
+BY_NAME = {method.name: method for method in METHODS}

@@ -31,7 +31,7 @@ from rotator.exchange.orders import (
 )
 from rotator.exchange.sources import Refusal, Source
 from rotator.exchange.status import Status
-from rotator.protocols.console import PULSE_S, ClockIsRight, Demo, GoOn, PersonCommand, Pulse, Track
+from rotator.protocols.methods import PULSE_S, ClockIsRight, Demo, GoOn, PersonCommand, Pulse, Track
 from rotator.protocols.session import Box, Tracking
 
 NOTHING_LEFT = "nothing was tracked that could go on; `resume` lets the antenna move again"

@@ -5,11 +5,11 @@ Knows the words. Does not know the panel, nor what a switch does.
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.exchange.orders import Mode
+from rotator.protocols.aiming import degrees
 
 LONGEST_THROW_S = 60.0
 OPERANDS = "mode auto|manual|jog|park | knob azimuth|elevation SHARE | jog cw|ccw|up|down SECONDS | stop press|release"
@@ -19,7 +19,6 @@ TURNS = {
     "up": (Axis.ELEVATION, Direction.PLUS),
     "down": (Axis.ELEVATION, Direction.MINUS),
 }
-_NUMBER = re.compile(r"[0-9]{0,3}(?:[.,][0-9]{1,4})?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +72,7 @@ def parse_hand(words: list[str]) -> Hand:
 
 
 def _number(text: str, most: float, quantity: str) -> float:
-    value = float(text.replace(",", ".")) if text and _NUMBER.fullmatch(text) else -1.0
-    if not 0.0 <= value <= most:
+    value = degrees(text)
+    if value is None or not 0.0 <= value <= most:
         raise ValueError(f"{text[:20]!a} is no {quantity}")
     return value

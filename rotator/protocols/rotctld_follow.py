@@ -82,7 +82,7 @@ class RotctldFollower:
         elif points_to != self._ordered:
             self._ordered, self._since_order, self._times_left = points_to, 0, TIMES_AGAIN
             self._box.order(order)
-        elif points_to == self._ordered and self._times_left and self._since_order >= self._until_again:
+        elif self._times_left and self._since_order >= self._until_again:
             self._since_order, self._times_left = 0, self._times_left - 1
             if self._dropped(order):
                 self._box.order(order)

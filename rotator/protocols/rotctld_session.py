@@ -106,7 +106,8 @@ class RotctldSession(LineTalk):
         words = request.arguments
         match request.name:
             case "set_pos":
-                return self._set_position(*map(number, words))
+                azimuth_deg, elevation_deg = map(number, words)
+                return self._order(aim(azimuth_deg, elevation_deg))
             case "get_pos":
                 return self._position()
             case "stop":
@@ -180,10 +181,6 @@ class RotctldSession(LineTalk):
             case "dump_state":
                 return rotctld_caps.dump_state(status)
         raise BadRequest(NOT_IMPLEMENTED)
-
-    def _set_position(self, azimuth_deg: float, elevation_deg: float) -> Answer:
-        order = aim(azimuth_deg, elevation_deg)
-        return self._order(order) if order else Answer(INVALID_PARAMETER)
 
     def _move(self, direction: str, speed: str) -> Answer:
         jogs, percent = _DIRECTIONS.get(direction), whole_number(speed)

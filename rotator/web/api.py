@@ -18,8 +18,7 @@ from rotator.exchange.orders import Jog, Release, Stop
 from rotator.exchange.sources import Source
 from rotator.exchange.status import Status
 from rotator.languages import VIEWS, Wanted, module, reader_language
-from rotator.protocols.console import GoOn
-from rotator.protocols.methods import METHODS, Method, WrongValuesError
+from rotator.protocols.methods import METHODS, GoOn, Method, WrongValuesError
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object

@@ -119,8 +119,6 @@ def _wait(seconds: float) -> str:
     return f"too many wrong codes, or unused ones: try again in {minutes} min, or type `rotator pair` at the box"
 
 
-log = logging.getLogger(__name__)
-
 LASTS_S = 180 * 86_400.0
 """Seconds: a pairing unused this long ends."""
 NOTED_S = 86_400.0

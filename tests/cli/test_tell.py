@@ -98,7 +98,7 @@ def test_anything_the_console_knows(box: Any, rotator_here: Rotator, config: Pat
 
 def test_what_is_refused_moves_and_stops_nothing(box: Any, rotator_here: Rotator, config: Path) -> None:
     done = rotator_here("confirm", "elevation", "-100", "--config", config)
-    assert why(done) == "rotator: '-100' is no elevation: degrees from -90 to 210\n"
+    assert why(done) == "rotator: angle_deg must be a number from -90 to 210\n"
     for words in (["polarisation", "10"], ["azimuth", "north"], ["azimuth", "43,8,5"]):
         assert rotator_here("confirm", *words, "--config", config).returncode == 2, words
     # A pot rotor has no end stop to find.

@@ -30,18 +30,14 @@ from rotator.exchange.orders import (
 from rotator.protocols.console import (
     VERBS,
     Ask,
-    ClockIsRight,
     ConsoleCommand,
-    Demo,
-    GoOn,
     Pair,
-    Pulse,
     TableLine,
-    Track,
     TrackTable,
     parse,
 )
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
+from rotator.protocols.methods import ClockIsRight, Demo, GoOn, Pulse, Track
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Session
 from tests.protocols.fed import Notebook
@@ -104,8 +100,8 @@ ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
 ]
 COMMANDS = (
-    "status, stop, resume, go-on, home, confirm, relays-checked, let-go, park, jog, pulse, point, nudge, track, "
-    "table, track-table, demo, take, give-back, mode, clock-is-right, panel, pair, help"
+    "status, stop, resume, go-on, take, give-back, mode, point, jog, pulse, nudge, park, track, demo, clock-is-right, "
+    "home, confirm, relays-checked, let-go, table, track-table, panel, pair, help"
 )
 MISTAKES = [
     (b"parc", f"there is no command 'parc'; did you mean park? There are: {COMMANDS}"),
@@ -114,26 +110,26 @@ MISTAKES = [
     (b"\xffpark", f"there is no command '\\xffpark'; did you mean park? There are: {COMMANDS}"),
     (b"status xml", "write it like this: status [json]"),
     (b"home", "write it like this: home azimuth|elevation"),
-    (b"home polarisation", "write it like this: home azimuth|elevation"),
+    (b"home polarisation", "axis must be one of azimuth, elevation, not 'polarisation'"),
     (b"park now", "write it like this: park"),
     (b"resume azimuth", "write it like this: resume"),
     (b"jog cw", "write it like this: jog cw|ccw|up|down SECONDS"),
-    (b"jog left 1", "write it like this: jog cw|ccw|up|down SECONDS"),
-    (b"jog cw 5.1", "'5.1' is no time to jog: seconds, 5 at most"),
-    (b"jog cw 0", "'0' is no time to jog: seconds, 5 at most"),
-    (b"jog cw -1", "'-1' is no time to jog: seconds, 5 at most"),
-    (b"jog cw nan", "'nan' is no time to jog: seconds, 5 at most"),
+    (b"jog left 1", "turn must be one of cw, ccw, up, down, not 'left'"),
+    (b"jog cw 5.1", "seconds must be a number from 0.05 to 5, not '5.1'"),
+    (b"jog cw 0", "seconds must be a number from 0.05 to 5, not '0'"),
+    (b"jog cw -1", "seconds must be a number from 0.05 to 5, not '-1'"),
+    (b"jog cw nan", "seconds must be a number from 0.05 to 5, not 'nan'"),
     (b"point", "write it like this: point AZIMUTH [ELEVATION]"),
-    (b"point 721 25", "'721' is no azimuth: degrees from -360 to 720"),
-    (b"point 235 211", "'211' is no elevation: degrees from -90 to 210"),
-    (b"point 2x5 25", "'2x5' is no azimuth: degrees from -360 to 720"),
-    (b"point 1e999 25", "'1e999' is no azimuth: degrees from -360 to 720"),
-    (b"point \xb2 25", "'\\xb2' is no azimuth: degrees from -360 to 720"),
+    (b"point 721 25", "azimuth must be a number from -360 to 720, not '721'"),
+    (b"point 235 211", "elevation must be a number from -90 to 210, not '211'"),
+    (b"point 2x5 25", "azimuth must be a number from -360 to 720, not '2x5'"),
+    (b"point 1e999 25", "azimuth must be a number from -360 to 720, not '1e999'"),
+    (b"point \xb2 25", "azimuth must be a number from -360 to 720, not '\\xb2'"),
     (b"nudge azimuth -1,5", "there is no target to nudge: track or point first"),
-    (b"nudge azimuth 21", "'21' is no nudge: degrees from -20 to 20"),
+    (b"nudge azimuth 21", "offset must be a number from -20 to 20, not '21'"),
     (b"confirm azimuth", "write it like this: confirm azimuth|elevation DEGREES"),
-    (b"confirm azimuth here", "'here' is no azimuth: degrees from -360 to 720"),
-    (b"confirm elevation inf", "'inf' is no elevation: degrees from -90 to 210"),
+    (b"confirm azimuth here", "angle must be a number from -360 to 720, not 'here'"),
+    (b"confirm elevation inf", "angle must be a number from -360 to 720, not 'inf'"),
 ]
 
 

@@ -9,10 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.protocols.console import VERBS, parse
-from rotator.protocols.methods import METHODS, Method, WrongValuesError
+from rotator.protocols.methods import BY_NAME, METHODS, Method, WrongValuesError
 from tests.tables import every_row
 
-BY_NAME = {method.name: method for method in METHODS}
 ON_THE_CONSOLE_ALONE = {"status", "panel", "pair", "help", "table", "track-table"}
 """The page has its own ways to read and to pair; a simulated panel is for tests, a table comes from a file there."""
 

@@ -11,7 +11,7 @@ from rotator.control.sky.known_path import KnownPath
 from rotator.exchange.orders import Aim, Order, Stop, Take
 from rotator.exchange.sources import CONSOLE, PAGE, Source
 from rotator.orbits.demo_pass import FAST, PASSES, demo_pass
-from rotator.protocols.console import Demo
+from rotator.protocols.methods import Demo
 from rotator.protocols.operating import Operating
 from rotator.runtime.client import Client
 from tests.protocols.fed import Notebook

@@ -11,8 +11,8 @@ from rotator.assembly.settings import build_mount
 from rotator.config.load import parse
 from rotator.exchange.orders import Aim, GiveBack, Order, Release, Stop, Take
 from rotator.exchange.sources import Source
-from rotator.protocols.console import Track
 from rotator.protocols.console_session import tracked
+from rotator.protocols.methods import Track
 from rotator.protocols.operating import Operating
 from rotator.runtime.client import Client
 from rotator.tracking.tracker import CLOCK_UNSURE

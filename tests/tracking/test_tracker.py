@@ -16,7 +16,7 @@ from rotator.exchange.sources import Source
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
-from rotator.protocols.console import GoOn
+from rotator.protocols.methods import GoOn
 from rotator.protocols.operating import NOTHING_LEFT, Operating
 from rotator.runtime.client import Client
 from rotator.tracking.tracker import CLOCK_UNSURE
