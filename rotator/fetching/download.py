@@ -6,12 +6,14 @@ know when a request is due. It uses `urllib`: a request every few hours needs no
 
 from __future__ import annotations
 
+import errno
 import string
 import time
 from dataclasses import dataclass
 from http import HTTPStatus
 from http.client import HTTPException, HTTPResponse
 from pathlib import Path
+from socket import gaierror
 from urllib.error import HTTPError, URLError
 from urllib.parse import quote, urljoin, urlsplit
 from urllib.request import (
@@ -66,13 +68,17 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """`status`: that of HTTP; 0: there was no answer. `trouble`: why the answer is refused; empty: it is taken."""
+    """`status`: that of HTTP; 0: there was no answer. `trouble`: why the answer is refused; empty: it is taken.
+
+    `offline`: this computer has no network, so no server was asked.
+    """
 
     status: int
     trouble: str = ""
     sets: int = 0
     etag: str = ""
     modified: str = ""
+    offline: bool = False
 
 
 def ask(question: Question) -> Answer:
@@ -88,7 +94,8 @@ def ask(question: Question) -> Answer:
             return Answer(answer.code, "the server redirects too often, or to an address that is not http")
         return Answer(answer.code, f"the server answers {answer.code} {answer.reason}".rstrip())
     except URLError as fault:
-        return Answer(0, no_answer(fault.reason))
+        offline = isinstance(fault.reason, gaierror) or getattr(fault.reason, "errno", None) == errno.ENETUNREACH
+        return Answer(0, no_answer(fault.reason), offline=offline)
     except (OSError, HTTPException, ValueError) as fault:
         return Answer(0, no_answer(fault))
 
@@ -201,6 +208,8 @@ def checked(content: bytes, utc_s: float) -> int:
 def no_answer(fault: object) -> str:
     """Why a server gave no answer, in one line for a person."""
     reason = getattr(fault, "strerror", None) or str(fault) or type(fault).__name__
+    if isinstance(fault, gaierror):
+        reason = "no internet here, or the server's name is wrong"
     if isinstance(fault, TimeoutError):
         reason = f"it took longer than {ANSWER_S:g} s"
     return f"no answer: {' '.join(str(reason).split())}"

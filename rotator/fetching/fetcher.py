@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from rotator.exchange.status import time_left
 from rotator.fetching.download import Answer, Question
 from rotator.fetching.manners import EVERY_S, LEAST_S, REFUSED_S, Moment, concerned, concerns_host, left_s, wait_s
 from rotator.runtime.own_process import OwnProcess
@@ -125,7 +126,8 @@ class Fetcher:
             self._learn(now)
             self._keep(after)
         if after.trouble:
-            log.warning("%s: %s; not asked again for %.0f h", address, after.trouble, after.wait_s / 3600)
+            level = logging.DEBUG if answer.offline and after.trouble == before.trouble else logging.WARNING
+            log.log(level, "%s: %s; not asked again for %s", address, after.trouble, time_left(after.wait_s))
         else:
             log.info("%s: elements of %d satellites", address, answer.sets)
         return not answer.trouble
@@ -147,7 +149,7 @@ def _after(asked: Asked, answer: Answer) -> Asked:
     if answer.trouble:
         return replace(
             asked,
-            wait_s=wait_s(answer.status),
+            wait_s=wait_s(answer.status, offline=answer.offline),
             trouble=answer.trouble,
             whole_host=concerns_host(answer.status),
             shrunk=answer.sets,

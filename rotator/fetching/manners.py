@@ -18,6 +18,8 @@ EVERY_S = 6 * 3600.0
 """Seconds of wait after a good answer."""
 LEAST_S = 2 * 3600.0
 """Seconds: no address is asked again sooner, even after a failure or a restart. Elements do not change sooner."""
+OFFLINE_S = 600.0
+"""No server was asked: this computer had no network."""
 REFUSED_S = 24 * 3600.0
 JUMP_S = 3600.0
 """Seconds by which the clock may have been changed between two runs."""
@@ -33,8 +35,10 @@ class Moment:
     awake_s: float
 
 
-def wait_s(status: int) -> float:
-    """Seconds to wait after this HTTP status; 0: there was no answer."""
+def wait_s(status: int, *, offline: bool = False) -> float:
+    """Seconds to wait after this HTTP status; 0: there was no answer. `offline`: no server was asked."""
+    if offline:
+        return OFFLINE_S
     refused = HTTPStatus.BAD_REQUEST <= status < HTTPStatus.INTERNAL_SERVER_ERROR and status not in _FOR_NOW
     return REFUSED_S if refused else LEAST_S
 

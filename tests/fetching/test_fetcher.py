@@ -168,6 +168,16 @@ def test_no_answer_is_no_reason_to_ask_sooner(tmp_path: Path, server: Said) -> N
     assert station.record["wait_s"] == 2 * HOUR_S
 
 
+def test_a_box_without_a_network_asks_again_in_ten_minutes(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """It has disturbed no server. A box that is never on the network says so once."""
+    station = Station(tmp_path, "http://no-such-server.invalid/elements")
+    for _ in range(3):
+        station.wait(600.0)
+    assert station.record["trouble"] == "no answer: no internet here, or the server's name is wrong"
+    assert station.record["wait_s"] == 600.0
+    assert len([each for each in caplog.records if "asked again" in each.message and each.levelname == "WARNING"]) == 1
+
+
 def test_a_record_that_cannot_be_written_asks_nothing(tmp_path: Path, server: Said) -> None:
     (tmp_path / "folder").write_text("a file where the folder should be", encoding="utf-8")
     station = Station(tmp_path / "folder", server.address())
