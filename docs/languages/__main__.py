@@ -56,8 +56,10 @@ SINGLE = (
         "doubted",
         "today",
     ),
-    *("N", "E", "S", "W", "now", "done", "good", "warning", "errors", "simulated"),
+    *("N", "NE", "E", "SE", "S", "SW", "W", "NW", "now", "done", "good", "warning", "errors", "simulated"),
     *(
+        "the plan rests for {0} more, {1}",
+        "no internet here, or the server's name is wrong",
         "{0} warning",
         "{0} warnings",
         "{0} satellite",
@@ -90,6 +92,10 @@ OF_SETUP = (
     "The file begins as the shipped one of this rotor. `rotator help wiring` shows each.",
     "One is enough to begin; a [[link]] more for each other. `rotator help programs` lists them all.",
     "The Pi can be a COM port of the PC: `sudo rotator setup usb-serial` makes it one.",
+    *(f"{{0}} = {{1}}: must be {expected}" for expected in ("a number", "a whole number", "one of {2}")),
+    *(f"{{0}} = {{1}}: must be {less} than or equal to {{2}}" for less in ("less", "greater")),
+    *(f"{{0}} = {{1}}: must be {less} than {{2}}" for less in ("less", "greater")),
+    "{0}: must be given",
 )
 OF_THE_DOCTOR = (
     *("free", "awake", "calibrated", "a place", "under-voltage", "throttled", "simulated: {0}"),

@@ -96,6 +96,8 @@ def _goes_on(box: RunningBox) -> str:
     if state == "planning":
         return "The box makes a plan."
     _, _, why = spoken(state).partition(": ")
+    if why.startswith("the plan rests"):
+        why += "; `rotator track plan` ends that"
     return f"The box tracks nothing: {why}." if why else "The box tracks nothing."
 
 

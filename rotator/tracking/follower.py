@@ -134,7 +134,7 @@ class Follower:
             return ""
         if not self._tracker.clock_trusted():
             return CLOCK_UNSURE
-        return f"the plan rests for {time_left(left_s)} more, {self._rests_after}; `rotator track plan` ends that"
+        return f"the plan rests for {time_left(left_s)} more, {self._rests_after}"
 
     def _may_fly(self, status: Status, now: Now) -> bool:
         return (

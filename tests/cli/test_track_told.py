@@ -13,7 +13,7 @@ from rotator.exchange.status import AxisStatus, Flown
 from tests.cli.scripted import Rotator, pointed
 
 STANDS = pointed(AxisStatus(0.0, 450.0, 200.0), by="")
-WHY = "the plan rests for 9:50 min more, after an order of {}; `rotator track plan` ends that"
+WHY = "the plan rests for 9:50 min more, after an order of {}"
 RESTS = f"rests: {WHY.format('page#1')}"
 ENDED = "rotator: another person has ended the tracking meanwhile\n"
 
@@ -32,7 +32,7 @@ ENDED = "rotator: another person has ended the tracking meanwhile\n"
         ("", ["off"], 0, "The box tracks nothing.\n"),
         ("", ["planning"], 0, "The box makes a plan.\n"),
         ("", ["ended: console#2 stopped it"], 0, "The box tracks nothing: a rotator command stopped it.\n"),
-        ("", [RESTS], 0, f"The box tracks nothing: {WHY.format('the page')}.\n"),
+        ("", [RESTS], 0, f"The box tracks nothing: {WHY.format('the page')}; `rotator track plan` ends that.\n"),
     ],
 )  # fmt: skip
 def test_what_it_tells(

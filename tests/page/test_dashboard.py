@@ -137,7 +137,7 @@ def test_the_page_is_the_mode_switch_of_a_box_that_has_none(start: Start, visit:
     pair(anna, "Anna")
     pair(bert, "Bert")
     anna.get_by_role("button", name="Mode MANUAL").click()
-    bert.get_by_text("Only Anna points and turns it. Set by Anna.").wait_for()
+    bert.get_by_text("Only Anna points and turns it. Chosen by Anna.").wait_for()
     assert bert.get_by_role("button", name="East").is_disabled()
     anna.get_by_role("button", name="East").click()
     headline(anna, "ON TARGET")

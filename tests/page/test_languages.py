@@ -80,6 +80,22 @@ def test_a_count_has_the_form_of_its_language(start: Callable[..., Station], vis
     assert "3" in told[3], "a message without forms"
 
 
+def test_sentences_with_names_and_times_are_said_one_after_the_other(
+    start: Callable[..., Station], visit: Callable[..., Page]
+) -> None:
+    page = visit(start(page='language = "de"'))
+    english = (
+        "Only buttons that this browser holds turn it. Chosen by Anna's phone.",
+        "The plan rests for 9:50 min more, after an order of Anna's phone.",
+        "azimuth.min_deg = -400.5: must be greater than or equal to -360",
+    )
+    assert page.evaluate(SAID, english) == [
+        "Nur Tasten, die dieser Browser hält, drehen sie. Gewählt von: Anna's phone.",
+        "Der Plan ruht noch 9:50 min, nach einem Befehl von Anna's phone.",
+        "azimuth.min_deg = -400.5: muss mindestens -360 sein",
+    ]
+
+
 @pytest.mark.parametrize("language", OTHERS)
 def test_a_fault_is_said_whole(start: Callable[..., Station], visit: Callable[..., Page], language: str) -> None:
     page, words = visit(start(page=f'language = "{language}"')), catalogue(language)

@@ -17,7 +17,7 @@ import { Control, Front, Headline, Links, Mode, Notes, Strip } from "/panels.js"
 import { Setup } from "/setup.js";
 import { Sky } from "/sky.js";
 import { Timeline } from "/timeline.js";
-import { act, fitted, html, render, useEffect, useEvery, useState, wordsOf } from "/ui.js";
+import { act, fitted, html, render, useEffect, useEvery, useState, verbatim, wordsOf } from "/ui.js";
 
 const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000, KEPT_MS = 60_000;
 let tell = () => {}, version;
@@ -128,7 +128,7 @@ function Page() {
       <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`}
         aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
       <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? html`<a href="#paired"
-        title="Paired browsers and programs">${hello.paired ? hello.name : "may only look"}
+        title="Paired browsers and programs">${hello.paired ? verbatim(hello.name) : "may only look"}
         </a>` : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>
         ${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
     </header>

@@ -37,7 +37,7 @@ export const plain = (text) => said(text ?? "").split("`").map((part, at) => (at
 function range({ kind, named, least, above, most, below, needed }) {
   if (named) return said(named);
   const low = least != null ? `from ${least}` : above != null ? `above ${above}` : "",
-    high = most != null ? `to ${most}` : below != null ? `below ${below}` : "";
+    high = most != null ? `up to ${most}` : below != null ? `below ${below}` : "";
   return [kind === "whole" && "whole", low, high, kind === "numbers" && "numbers in brackets", kind === "texts" && "one a line", needed && "must be given"].filter(Boolean).map(said).join(" ");
 }
 

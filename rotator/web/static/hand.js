@@ -94,6 +94,9 @@ export function trackingSaid(tracking) {
   return tracking.startsWith("ended") ? `Tracking has ${tracking}` : "";
 }
 
+/** It would be flown if nobody had ordered anything else. */
+export const planRests = ({ tracking }) => /^rests: the plan/.test(tracking);
+
 export function Track({ now, known, say }) {
   const [name, setName] = useState(""), [place, setPlace] = useState(null);
   // The box knows countries and callsigns. An answer that comes when other words stand there is of no use.
@@ -123,6 +126,7 @@ export function Track({ now, known, say }) {
     ${!known && html`<p class="hint-line">Directions alone, because the box does not know where it stands: <a href="#setup">tell it</a>.</p>`}
     ${!tracks && !now.stopper && html`<${GoesOn} now=${now} say=${say} />`}
     ${said && html`<p class="hint-line" role="status">${said}</p>`}
+    ${planRests(now) && html`<button type="button" onClick=${() => act(post("track", { target: "plan" }), say)}>Follow the plan</button>`}
   </form>`;
 }
 

@@ -4,7 +4,7 @@ import { boxTime, post, read } from "/box.js";
 import { trackingSaid } from "/hand.js";
 import { Orders } from "/orders.js";
 import { clock, place, wayAt } from "/sky.js";
-import { act, html, useEffect, useMemo, useRef, useState } from "/ui.js";
+import { act, html, said, useEffect, useMemo, useRef, useState, verbatim } from "/ui.js";
 
 const EVERY_MS = 60_000, COMPUTES_MS = 1500, FAILED_MS = 15_000, NONE_MS = 2000, MOVES_MS = 200, TAIL_S = 75, ROWS = 60;
 const TOUCH_PX = 22, LABEL_REM = 0.82, LINE = 1.25, EDGE = 103, POINTS = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
@@ -160,7 +160,7 @@ function facts(one, at) {
 export function Chosen({ one, now, hello, say, onClose }) {
   const card = useRef(null), at = seconds(), way = where(one, at), [az, el] = way ? wayAt(way) : [], tracks = now.status.tracks?.name === one.name;
   useEffect(() => card.current.scrollIntoView({ block: "nearest" }), [key(one)]);
-  const track = (target) => act(post("track", { target }), say), said = trackingSaid(now.tracking);
+  const track = (target) => act(post("track", { target }), say), became = trackingSaid(now.tracking);
   return html`<section class="picked" ref=${card} aria-label=${one.name}><h2>${one.name}</h2>
     <button type="button" class="close quiet" aria-label=${`Close ${one.name}`} onClick=${onClose}>×</button>
     <dl>${facts(one, at).map(([name, value]) => html`<div><dt>${name}</dt><dd>${value}</dd></div>`)}
@@ -169,7 +169,7 @@ export function Chosen({ one, now, hello, say, onClose }) {
       onClick=${() => track("off")}>End ${one.short}</button>` : html`<button type="button" class="go"
       onClick=${() => track(String(key(one)))}>Track<span class="only-read"> ${one.name}</span></button>`}</p><//>`
       : html`<p class="hint-line">A paired browser can track it.</p>`}
-    ${said && html`<p class="hint-line">${said}</p>`}</section>`;
+    ${became && html`<p class="hint-line">${became}</p>`}</section>`;
 }
 
 /** The same as a list: for the keyboard, for who hears the page, and to find a name. */
@@ -187,7 +187,8 @@ export function UpNow({ sky, fault, known, clockKnown, chosen, choose }) {
       href="#setup/8">Setup, step 8</a>`}</p>`}
     <ul>${rows.slice(0, ROWS).map(([one, way]) => html`<li key=${key(one)}><button type="button"
       class=${way ? one.rank || "other" : "soon"} aria-pressed=${key(one) === chosen} onClick=${() => choose(key(one))}>
-      <b>${one.short}</b><span>${way ? `${Math.round(wayAt(way)[1])}° ${POINTS[Math.round(wayAt(way)[0] / 45) % 8]}` : `in ${span(one.aos_s - at)}`}
+      <b>${one.short}</b><span>${way
+        ? verbatim(`${Math.round(wayAt(way)[1])}° ${said(POINTS[Math.round(wayAt(way)[0] / 45) % 8])}`) : html`in ${span(one.aos_s - at)}`}
         </span></button></li>`)}</ul>
     ${rows.length > ROWS && html`<p class="hint-line">and ${rows.length - ROWS + sky.left_out} more on the sky</p>`}</section>`;
 }

@@ -66,7 +66,7 @@ const holderOf = (now, hello) => (now.status.held_by === hello.source ? "this br
 /** A box with a mode switch of its own shows where it stands; without one the page is the switch. */
 export function Mode({ now, hello, paired, say }) {
   const { panel_mode: mode, mode_by: source } = now.status, who = source === hello.source ? "this browser" : now.mode_by || "the panel";
-  const told = `${MODES[mode][1](who, holderOf(now, hello))}${mode === "auto" || !source ? "" : ` Set by ${who}.`}`;
+  const told = `${MODES[mode][1](who, holderOf(now, hello))}${mode === "auto" || !source ? "" : ` Chosen by ${who}.`}`;
   if (now.mode_switch || !paired) return html`<p class="mode">Mode <b>${MODES[mode][0]}</b>: ${told}</p>`;
   return html`<div class="mode"><div class="choice" role="group" aria-label="Mode">
     ${Object.entries(MODES).map(([each, [name]]) => html`<button type="button" aria-label=${`Mode ${name}`}

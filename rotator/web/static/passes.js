@@ -3,7 +3,7 @@
 import { boxTime, post, send } from "/box.js";
 import { Elements } from "/elements.js";
 import { Flown } from "/flown.js";
-import { Track } from "/hand.js";
+import { planRests, Track } from "/hand.js";
 import { number, NumberField } from "/numbers.js";
 import { PlanTable, usePasses } from "/plan.js";
 import { Timeline } from "/timeline.js";
@@ -25,9 +25,9 @@ const round = (deg) => (deg == null ? "" : `${Math.round(deg)}°`);
 function Row({ pass, now, paired, tracked, track, beam }) {
   const rises = pass.aos && new Date(pass.aos), sets = pass.los && new Date(pass.los), up = !rises || rises <= now;
   return html`<tr class=${up ? "now" : ""}><td>${pass.name}</td>
-    <td class="figure">${up ? "is up" : `in ${until(rises - now)}`}</td>
+    <td class="figure">${up ? "is up" : html`in ${until(rises - now)}`}</td>
     <td class="figure wide">${rises ? clock(rises) : ""}</td>
-    <td class="figure wide">${sets ? (up ? `${until(sets - now)} more` : until(sets - rises)) : "does not set"}</td>
+    <td class="figure wide">${sets ? (up ? html`${until(sets - now)} more` : until(sets - rises)) : "does not set"}</td>
     <td class="figure">${round(pass.max_el_deg)}</td>
     <td class="figure wide">${round(pass.aos_az_deg)} → ${round(pass.los_az_deg)}</td>
     <td class=${`figure ${pass.expected_error_deg > beam / 2 ? "warning" : ""}`}>
@@ -57,7 +57,7 @@ export function Passes({ now: box, station, hello, say }) {
     ${paired && html`<${Orders} now=${box} hello=${hello}><div class="chips" role="group" aria-label="Track">
       ${BODIES.map((name) => html`<button type="button" disabled=${!station.where} aria-pressed=${tracks?.name === name}
         onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
-      ${passes?.some((pass) => pass.plan) && html`<button type="button" onClick=${() => track("plan")}>Follow the plan</button>`}
+      ${passes?.some((pass) => pass.plan) && !planRests(box) && html`<button type="button" onClick=${() => track("plan")}>Follow the plan</button>`}
       ${!/^(off|ended)/.test(box.tracking) && html`<button type="button" onClick=${() => track("off")}>Track nothing</button>`}</div>
       <${Track} now=${box} known=${station.where} say=${say} />
       <label class="file">Track a table of directions: CSV with t,az,el<input type="file" onChange=${trackTable} accept=".csv,.txt" /></label><//>`}

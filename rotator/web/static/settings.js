@@ -211,7 +211,7 @@ export function Settings({ settings, now, only, keys }) {
       onClick=${() => check({ changes })}>
       ${changes.length ? `See ${changes.length === 1 ? "the change" : `${changes.length} changes`}` : "Nothing is changed"}</button>
       ${changes.length > 0 && html`<button type="button"
-        onClick=${() => (setDraft({}), forget(), setForgotten(forgotten + 1), load())}>Forget ${changes.length === 1 ? "it" : "them"}</button>`}
+        onClick=${() => (setDraft({}), forget(), setForgotten(forgotten + 1), load())}>${changes.length === 1 ? "Forget it" : "Forget them"}</button>`}
       <span role="status">${busy || (mistakes.length > 0 && `${mistakes.length} to mend`)}</span></div>
     ${mistakes.filter((each) => !placed(each)).map((each) => html`<p class="mistake" role="alert">${each.text}</p>`)}
     <div class="outcome">${view}</div>

@@ -61,13 +61,14 @@ function Bar({ pass, begin, chosen, reached, onChoose, onKey, onGrab }) {
 }
 
 /** What is known of a pass, and what one may do with it. */
-function Chosen({ pass, rivals, now, hello, onFly, say }) {
+function Chosen({ pass, rivals, follows, now, hello, onFly, say }) {
   const { paired } = hello, tracked = now.status.tracks?.name === pass.name, card = useRef(null);
   useEffect(() => intoSight(card.current), [keyOf(pass)]);
   return html`<div class="chosen" ref=${card}><p role="status"><b>${pass.name}
     </b> ${when(pass)}, ${Math.round(pass.max_el_deg)}° high${pass.aos_az_deg == null ? "" : `, from ${Math.round(pass.aos_az_deg)}°`}${pass.los_az_deg == null ? "" : ` to ${Math.round(pass.los_az_deg)}°`}. ${pass.plan ? html`<span
     class=${state(pass)}>${pass.plan.flown ? html`In the plan: ${how(pass.plan)}.` : html`Left out: ${pass.plan.reason}.`}
-    </span>` : "Not in the plan."}</p>
+    </span>` : html`${"Not in the plan."} ${paired && !follows && html`The box flies each of its passes once you name it in <a
+      href="#setup/8">Setup, step 8</a>, <code>sky.follow</code>.`}`}</p>
     ${paired && html`<div class="chips"><${Orders} now=${now} hello=${hello}><button type="button" aria-pressed=${tracked}
       onClick=${() => act(post("track", { target: pass.name }), say)}>
       ${tracked ? `${pass.name} is tracked` : `Track ${pass.name}`}</button><//>
@@ -157,7 +158,8 @@ export function Timeline({ now, station, hello, say, coming = usePasses() }) {
     </div></div>`}
     ${every.length > most && html`<p><button type="button" aria-expanded=${all} onClick=${() => showAll(!all)}>
       ${all ? "Fewer satellites" : `Other satellites: ${every.length - most}`}</button></p>`}
-    ${pass ? html`<${Chosen} pass=${pass} rivals=${rivalsOf(pass, passes)} now=${now} hello=${hello} say=${say}
+    ${pass ? html`<${Chosen} pass=${pass} rivals=${rivalsOf(pass, passes)}
+      follows=${followed.some((one) => one.target === pass.name)} now=${now} hello=${hello} say=${say}
       onFly=${(name) => (pass.plan.flown ? prefer(name, pass.name) : prefer(pass.name, name))} />`
     : rows.length > 0 && html`<p class="about">Press a bar to see more of a pass.${paired && followed.length > 1 ? " Drag the satellite that counts more to the top: where two are up at once, a minute of the first is worth more." : ""}</p>`}
     ${!followed.length && station.where && html`<p class="about">The box flies passes by itself once it follows satellites: <a

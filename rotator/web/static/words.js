@@ -94,16 +94,17 @@ window.inReadersWords = said;
 /** Null: it is in no catalogue. A sentence is looked for as it stands, by its pattern, then, if not `whole`, in pieces. */
 function found(text, whole) {
   if (exact(text)) return exact(text);
-  const small = text[0].toLowerCase() + text.slice(1), told = small !== text && exact(small);
-  if (told) return told[0].toUpperCase() + told.slice(1);
+  const small = text[0].toLowerCase() + text.slice(1), large = (told) => told && told[0].toUpperCase() + told.slice(1);
+  if (small !== text && exact(small)) return large(exact(small));
   for (const { pattern, translation, open } of patterns(text)) {
     const values = pattern.exec(text)?.slice(1).map((value) => [value, WORD.test(value) ? found(value.trim(), open) : value]);
     if (values && !(open && values.some(([, inWords]) => inWords === null))) return form(translation, values.find(([value]) => !isNaN(value))?.[0]).replace(/\{(\d+)\}/g, (_, at) => values[at][1] ?? values[at][0]);
   }
-  if (whole) return null;
+  const told = small !== text && large(found(small, true));
+  if (told || whole) return told || null;
   const pieces = SEPARATORS.map((separator) => text.split(separator)).find((each) => each.length > 1) ?? [];
-  // A sentence may stand in the catalogue with its mark: "Stop it!"
-  const marked = (at) => exact(pieces[at] + (pieces[at + 1] ?? "").trim())?.slice(0, -1);
+  // A sentence stands in the catalogue with its mark: "Stop it!"
+  const marked = (at) => (/^[.!?]/.test(pieces[at + 1]) ? found(pieces[at] + pieces[at + 1][0], true)?.slice(0, -1) : null);
   const others = pieces.map((piece, at) => (piece === " and " ? exact("and") && ` ${exact("and")} ` : WORD.test(piece) ? found(piece) ?? marked(at) : null));
   return others.some((each) => each) ? pieces.map((piece, at) => others[at] || piece).join("") : null;
 }
