@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator
-from dataclasses import dataclass
 
-from hw.ports import Axis, Direction
+from hw.ports import Direction
 from rotator.calibrating.entries import Entry, Press, StopNow
+from rotator.calibrating.facts import AxisFacts
 from rotator.calibrating.guide import Abandoned, Asked, Guide
 from rotator.calibrating.phrases import Phrases, phrases_for
 from rotator.calibrating.question import Question
 from rotator.calibrating.reading_watch import AxisMoved, ReadingWatch
-from rotator.calibrating.readings import READINGS, SHARES, Measured, NotTrusted, ReadingUnit, measure
+from rotator.calibrating.readings import READINGS, Measured, NotTrusted, measure
 from rotator.calibrating.results import Saved
 from rotator.exchange.faults import FaultKind, Notice
 from rotator.exchange.orders import Jog, Stop
@@ -26,22 +26,6 @@ ACKNOWLEDGED_S = 0.3
 """A fault that remains this long after it was acknowledged is still present."""
 CONNECT_S = 3.0
 """Connecting to a motor controller takes this long; until then its silence is not reported."""
-
-
-@dataclass(frozen=True, slots=True)
-class AxisFacts:
-    """What the configuration says about the axis; degrees on the rotor's own scale."""
-
-    axis: Axis
-    min_deg: float
-    max_deg: float
-    lowest_reading: float
-    highest_reading: float
-    least_deg: float = -360.0
-    greatest_deg: float = 720.0
-    unit: ReadingUnit = SHARES
-    settle_s: float = 0.0
-    """How long it still moves after its status says that it stands."""
 
 
 def turned_the_wrong_way(axis: AxisStatus) -> bool:

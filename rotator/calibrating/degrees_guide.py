@@ -1,7 +1,7 @@
 """Guides the operator through an axis whose readings are degrees: a count, a controller, a model, gravity.
 
 Such an axis needs no table: only the direction check, the end stop of a count, and the limits. Pure, and one path from
-top to bottom (`_path`). Does not know drivers: how kinds of rotors differ is in `CalibrationTraits`.
+top to bottom (`_path`). Does not know drivers: how kinds of rotors differ is in `AxisFacts`.
 """
 
 from __future__ import annotations
@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Generator
 
 from hw.ports import Direction
-from rotator.assembly.calibration import CalibrationTraits
-from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
+from rotator.calibrating.axis_guide import AxisGuide
 from rotator.calibrating.entries import Number, StopNow, Word
 from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps, position_unknown
 from rotator.calibrating.question import HALT, Choice, Question
@@ -29,29 +28,25 @@ def needs_homing(axis: AxisStatus) -> bool:
 
 
 class DegreesGuide(AxisGuide):
-    def __init__(self, facts: AxisFacts, traits: CalibrationTraits) -> None:
-        super().__init__(facts)
-        self._traits = traits
-
     def _path(self) -> Steps:
         phrases, facts = self._phrases, self.facts
         self._lead(*phrases.introduction)
-        if self._traits.first_press:
-            self._say("", self._traits.first_press)
+        if self.facts.first_press:
+            self._say("", self.facts.first_press)
         yield from self._find_position()
-        homes, limits = ("End stop",) * self._traits.homes, ("Lowest angle", "Highest angle")
-        self.stages = ("Directions", *homes, *(() if self._traits.endless else limits), "Save")
+        homes, limits = ("End stop",) * self.facts.homes, ("Lowest angle", "Highest angle")
+        self.stages = ("Directions", *homes, *(() if self.facts.endless else limits), "Save")
         self.stage = "Directions"
         self._head("1. Directions.", *phrases.direction_check)
-        if self._traits.homes:
+        if self.facts.homes:
             yield from self._check_by_eye()
             if (yield from self._times()):
                 return
             yield from self._find_end_stop()
         else:
             yield from self._check_by_reading()
-        number = 3 if self._traits.homes else 2
-        if self._traits.endless:
+        number = 3 if self.facts.homes else 2
+        if self.facts.endless:
             low_deg, high_deg = facts.min_deg, facts.max_deg
             learnt = phrases.no_ends
             self._lead("", f"[{facts.axis.value}]: no ends, direction checked.")
@@ -84,14 +79,14 @@ class DegreesGuide(AxisGuide):
     @property
     def _unknown(self) -> bool:
         """Only a person can say where the axis stands."""
-        return position_unknown(self._axis) or (needs_homing(self._axis) and not self._traits.homes)
+        return position_unknown(self._axis) or (needs_homing(self._axis) and not self.facts.homes)
 
     @property
     def _who(self) -> str:
         return "box" if needs_homing(self._axis) else "controller"
 
     def _confirm(self, angle_deg: float) -> Steps:
-        self._orders.append(Confirm(self.facts.axis, angle_deg + self._traits.shift_deg))
+        self._orders.append(Confirm(self.facts.axis, angle_deg + self.facts.shift_deg))
         began_s = self._now_s
         while self._unknown and self._now_s - began_s < CONFIRM_S:
             yield
@@ -107,7 +102,7 @@ class DegreesGuide(AxisGuide):
         phrases = self._phrases
         change = yield from self._turn(Direction.PLUS, 0)
         if not (yield from self._agrees(phrases.did_it_turn, "plus")):
-            raise Abandoned(phrases.turned_wrong(self._traits.reversal))
+            raise Abandoned(phrases.turned_wrong(self.facts.reversal))
         if change < 0:
             raise Abandoned(phrases.reads_backwards)
         yield from self._turn(Direction.MINUS, -1)

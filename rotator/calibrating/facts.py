@@ -1,4 +1,5 @@
-"""What the configuration says for the guides: about north, and what a calibration at the sky begins with.
+"""What the configuration says for the guides: about an axis, about north, and about the mount before a calibration at
+the sky.
 
 Knows which key is which. Points stand in the file on the rotor's own scale, so that a later offset leaves them true.
 Knows no chip, no target and no clock.
@@ -6,15 +7,68 @@ Knows no chip, no target and no clock.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
+from hw.ports import Axis
+from rotator.assembly.calibration import SCALES_DEG, reach_deg
 from rotator.assembly.settings import build_mount, build_offsets
+from rotator.calibrating.readings import DEGREES, SHARES, ReadingUnit
 from rotator.config.model import Config
 from rotator.config.mount import SkyRow
 from rotator.control.sky.model_fit import SkyPoint
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.offsets import Offsets
 from rotator.control.sky.pointing_model import PointingModel
+
+SETTLE_S = 2.0
+"""A motor that goes to an angle by itself still moves for 1.5 s: it brakes from 30°/s at 20°/s²."""
+
+
+@dataclass(frozen=True, slots=True)
+class AxisFacts:
+    """About an axis that is to be set up; degrees on the rotor's own scale."""
+
+    axis: Axis
+    min_deg: float
+    max_deg: float
+    lowest_reading: float
+    highest_reading: float
+    least_deg: float = -360.0
+    greatest_deg: float = 720.0
+    """Where its limits can be."""
+    unit: ReadingUnit = SHARES
+    settle_s: float = 0.0
+    """How long it still moves after its status says that it stands."""
+    shift_deg: float = 0.0
+    """Added to the rotor's own scale this gives the angle that the box reports."""
+    homes: bool = False
+    """It counts from its end stop."""
+    endless: bool = False
+    """It has no ends, and so no limits."""
+    first_press: str = ""
+    """What the operator must expect of the first press; empty: nothing unusual."""
+    reversal: str = ""
+    """The repair for an antenna that turns the wrong way; empty: exchange the two relays."""
+
+
+def axis_facts(config: Config, axis: Axis) -> AxisFacts:
+    table, in_degrees = config.axis(axis), config.in_degrees(axis)
+    readings = (-math.inf, math.inf) if in_degrees else (table.lowest_reading, table.highest_reading)
+    return AxisFacts(
+        axis,
+        table.min_deg,
+        table.max_deg,
+        *readings,
+        *(reach_deg(config, axis) if in_degrees else SCALES_DEG[axis]),
+        unit=DEGREES if in_degrees else SHARES,
+        settle_s=0.0 if config.rotor.switched else SETTLE_S,
+        shift_deg=build_offsets(config).deg(axis),
+        homes=config.end_stop(axis) is not None,
+        endless=config.endless(axis),
+        first_press=config.kind.first_move(axis),
+        reversal=config.kind.reversal(axis),
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,9 @@ import math
 from collections.abc import Sequence
 
 from hw.ports import Ellipse
-from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
+from rotator.calibrating.axis_guide import AxisGuide
 from rotator.calibrating.entries import Word
+from rotator.calibrating.facts import AxisFacts
 from rotator.calibrating.guide import NOTHING_SAVED, Steps
 from rotator.calibrating.question import Choice, Question
 from rotator.calibrating.results import FieldLearnt

@@ -11,7 +11,6 @@ import re
 import socket
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 from rotator.runtime.own_thread import OwnThread
 
@@ -76,15 +75,6 @@ JOIN_S = 4.0
 MAX_LINE = 256
 
 
-class Receiver(Protocol):
-    def latest(self) -> Strength | None:
-        """The latest answer; None: rigctld has not answered yet."""
-
-    def start(self) -> None: ...
-
-    def stop(self) -> None: ...
-
-
 class BadAddress(ValueError):  # noqa: N818 - a sentence for a person
     """The text is no address of a receiver."""
 
@@ -101,7 +91,7 @@ def address(text: str) -> tuple[str, int]:
     return host, int(port)
 
 
-class RigctldReceiver(OwnThread):
+class Receiver(OwnThread):
     """`latest` may be called from any thread."""
 
     def __init__(
@@ -115,6 +105,7 @@ class RigctldReceiver(OwnThread):
         self._latest: Strength | None = None
 
     def latest(self) -> Strength | None:
+        """None: rigctld has not answered yet."""
         return self._latest
 
     def stop(self) -> None:

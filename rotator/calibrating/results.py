@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from hw.ports import Axis, Ellipse
 from rotator.config.mount import SkyRow
 from rotator.control.sky.pointing_model import PointingModel
+
+if TYPE_CHECKING:
+    from rotator.config.save import Tables
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +63,9 @@ Result = Saved | AngleConfirmed
 
 def save(result: Saved, path: Path) -> None:
     """Write into the file, whole or not at all. Raises OSError or ConfigError."""
-    from rotator.config.save import save_table  # noqa: PLC0415 - loads tomlkit, which a start can do without
+    from rotator.config.save import save_tables  # noqa: PLC0415 - loads tomlkit, which a start can do without
 
-    table, keys = _keys(result)
-    save_table(path, table, **keys)
+    save_tables(path, _tables(result))
 
 
 def saved_in(path: Path) -> str:
@@ -75,19 +77,19 @@ def as_toml(result: Saved) -> str:
     """The same keys as text, for an operator who gave no file."""
     from rotator.config.save import changed  # noqa: PLC0415
 
-    table, keys = _keys(result)
-    return changed("", table, **keys)
+    return changed("", _tables(result))
 
 
-def _keys(result: Saved) -> tuple[str, dict[str, Any]]:
-    """The table, and what becomes of its keys."""
+def _tables(result: Saved) -> Tables:
     match result:
         case AxisCalibrated(axis, points, min_deg, max_deg, times_s):
+            table = {"calibration": points} if points else {}
+            timed = {"to_high_s": times_s[0], "to_low_s": times_s[1]} if times_s else {}
             limits = {"min_deg": min_deg, "max_deg": max_deg, "direction_checked": True}
-            return axis.value, {"calibration": points, "times_s": times_s, **limits}
+            return {axis.value: {**limits, **table}, f"timed.{axis.value}": timed}
         case FieldLearnt(ellipse):
-            return "azimuth.sensor", asdict(ellipse)
+            return {"azimuth.sensor": asdict(ellipse)}
         case NorthFound(offset_deg):
-            return Axis.AZIMUTH.value, {"offset_deg": offset_deg}
+            return {"azimuth": {"offset_deg": offset_deg}}
         case MountFound(model, points):
-            return "mount.model", {**asdict(model), "points": [[round(part, 3) for part in row] for row in points]}
+            return {"mount.model": {**asdict(model), "points": [[round(part, 3) for part in row] for row in points]}}

@@ -13,22 +13,19 @@ from contextlib import ExitStack
 from hw.ports import Axis, FeelsField, HardwareError
 from rotator.assembly.buses import Board
 from rotator.assembly.calibration import (
-    SCALES_DEG,
     calibration_controller,
-    calibration_traits,
     guided_controller,
     open_compass,
 )
 from rotator.assembly.station import Station
-from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
+from rotator.calibrating.axis_guide import AxisGuide
 from rotator.calibrating.compass import CompassReader
 from rotator.calibrating.degrees_guide import DegreesGuide
 from rotator.calibrating.entries import Entry
-from rotator.calibrating.facts import north_facts
+from rotator.calibrating.facts import axis_facts, north_facts
 from rotator.calibrating.field_guide import FieldGuide
 from rotator.calibrating.guide import Guide
 from rotator.calibrating.north_guide import NorthGuide
-from rotator.calibrating.readings import DEGREES
 from rotator.calibrating.stopwatch_guide import StopwatchGuide
 from rotator.calibrating.table_guide import TableGuide
 from rotator.config.model import Config
@@ -67,15 +64,16 @@ class AxisRig(Rig):
 
     guide: AxisGuide
 
-    def __init__(self, config: Config, axis: Axis, station: Station, clock: Callable[[], float]) -> None:
-        self.guide = self._guide(config, axis)
+    def __init__(
+        self, config: Config, axis: Axis, station: Station, clock: Callable[[], float], guide: AxisGuide | None = None
+    ) -> None:
+        """`guide`: None: the one that fits the axis's sensor."""
+        self.guide = guide or axis_guide(config, axis)
         self.loop = control_loop(config, calibration_controller(config, axis), station, clock)
 
-    def _guide(self, config: Config, axis: Axis) -> AxisGuide:
-        return axis_guide(config, axis)
-
     def picture(self) -> tuple[str, bool]:
-        return picture(self.guide, self.loop)
+        guide, axis = self.guide, self.loop.status.axis(self.guide.facts.axis)
+        return f"reading {reading(guide, axis)}  {doing(guide, axis)}".rstrip(), bool(axis.drive)
 
 
 class FieldRig(AxisRig):
@@ -91,10 +89,7 @@ class FieldRig(AxisRig):
             )
         sensor.ellipse = None
         self._sensor: FeelsField = sensor
-        super().__init__(config, Axis.AZIMUTH, station, clock)
-
-    def _guide(self, config: Config, axis: Axis) -> FieldGuide:
-        return FieldGuide(axis_facts(config, axis))
+        super().__init__(config, Axis.AZIMUTH, station, clock, FieldGuide(axis_facts(config, Axis.AZIMUTH)))
 
     def step(self, entry: Entry | None = None) -> tuple[str, ...]:
         if self._sensor.field_ut:
@@ -167,12 +162,6 @@ def step(guide: Guide, loop: ControlLoop, entry: Entry | None) -> tuple[str, ...
     return result.lines
 
 
-def picture(guide: AxisGuide, loop: ControlLoop) -> tuple[str, bool]:
-    """The reading and the direction in one line, and whether the axis is driven."""
-    axis = loop.status.axis(guide.facts.axis)
-    return f"reading {reading(guide, axis)}  {doing(guide, axis)}".rstrip(), bool(axis.drive)
-
-
 def reading(guide: AxisGuide, axis: AxisStatus) -> str:
     facts = guide.facts
     if axis.raw is None:
@@ -190,21 +179,6 @@ def doing(guide: AxisGuide, axis: AxisStatus) -> str:
     return "it waits, and looks whether the axis stands" if axis.waiting else ""
 
 
-def axis_facts(config: Config, axis: Axis) -> AxisFacts:
-    """Of an axis that tells degrees."""
-    table, traits = config.axis(axis), calibration_traits(config, axis)
-    return AxisFacts(
-        axis,
-        table.min_deg,
-        table.max_deg,
-        -math.inf,
-        math.inf,
-        *traits.reach_deg,
-        unit=DEGREES,
-        settle_s=traits.settle_s,
-    )
-
-
 def page_guide(config: Config, axis: Axis) -> AxisGuide:
     """On the page a compass that has not learnt its iron does that first. Raises HardwareError as `axis_guide`."""
     return axis_guide(config, axis) if config.axis(axis).sensor.learnt else FieldGuide(axis_facts(config, axis))
@@ -216,15 +190,12 @@ def axis_guide(config: Config, axis: Axis) -> AxisGuide:
     if not table.sensor.learnt:
         raise HardwareError("the compass has to learn its iron first: rotator calibrate compass (rotator help compass)")
     if config.in_degrees(axis):
-        traits = calibration_traits(config, axis)
-        return (StopwatchGuide if traits.timed else DegreesGuide)(axis_facts(config, axis), traits)
+        timed = config.speeds_dps(axis) is not None
+        return (StopwatchGuide if timed else DegreesGuide)(axis_facts(config, axis))
     if not config.rotor.switched:
         raise HardwareError(
             f"{axis.value}: this rotor is sent angles, so it can be turned only when its {table.sensor.kind} is "
             "calibrated: turn it by hand or by its own control box, and write `calibration` into the file "
             "(rotator help calibration by-hand)"
         )
-    facts = AxisFacts(
-        axis, table.min_deg, table.max_deg, table.lowest_reading, table.highest_reading, *SCALES_DEG[axis]
-    )
-    return TableGuide(facts, config.adc.supply_v if config.has_pot(axis) else None)
+    return TableGuide(axis_facts(config, axis), config.adc.supply_v if config.has_pot(axis) else None)

@@ -15,7 +15,7 @@ from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import Entry
 from rotator.calibrating.facts import sky_facts
-from rotator.calibrating.receiver import BadAddress, Receiver, RigctldReceiver, address
+from rotator.calibrating.receiver import BadAddress, Receiver, address
 from rotator.calibrating.rig import Rig, control_loop
 from rotator.calibrating.scan_guide import ScanGuide
 from rotator.calibrating.sky_guide import Sighting, SkyGuide
@@ -119,10 +119,10 @@ def receiver_at(
 ) -> Receiver:
     """`words`: an address, or SIMULATED. `source`: where the simulated one hears something. Raises BadAddress."""
     if words != SIMULATED:
-        return RigctldReceiver(address(words), clock)
+        return Receiver(address(words), clock)
     assert station.world is not None, "only a simulated rotor has one: see `check`"
     alike = simulated_rigctld(simulated_receiver(config, station.world, clock, source))
-    return RigctldReceiver(alike.place, clock, alike.close)
+    return Receiver(alike.place, clock, alike.close)
 
 
 def _called(name: str) -> str:

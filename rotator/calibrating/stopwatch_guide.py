@@ -51,7 +51,7 @@ class StopwatchGuide(DegreesGuide):
         while (times_s := (yield from self._three_ways())) is None:
             self._say("", "Once more, from the low stop.")
         # It ends at the low stop.
-        self._orders.append(Confirm(facts.axis, facts.least_deg + self._traits.shift_deg))
+        self._orders.append(Confirm(facts.axis, facts.least_deg + facts.shift_deg))
         limits = f"limits {facts.min_deg:g} to {facts.max_deg:g} as in the file"
         self._lead(
             "", f"[timed.{facts.axis.value}]: {times_s[0]:g} s and {times_s[1]:g} s; {limits}, direction checked."

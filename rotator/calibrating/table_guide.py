@@ -10,8 +10,9 @@ from collections.abc import Generator
 from dataclasses import replace
 
 from hw.ports import Direction
-from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
+from rotator.calibrating.axis_guide import AxisGuide
 from rotator.calibrating.entries import Word
+from rotator.calibrating.facts import AxisFacts
 from rotator.calibrating.guide import BACK, NOTHING_SAVED, Abandoned, Steps
 from rotator.calibrating.question import Choice, Question
 from rotator.calibrating.reading_watch import AxisMoved

@@ -6,7 +6,7 @@ from.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from rotator.config.edit import Change, NoChangeError, edited
@@ -16,24 +16,15 @@ from rotator.config.statements import Place
 from rotator.config.toml_text import WRITING, read, replace
 from rotator.exchange.foreign import toml_of
 
-Points = Sequence[Sequence[float]]
-Value = float | bool | tuple[float, ...]
+Value = float | bool | Sequence[float] | Sequence[Sequence[float]]
+Tables = Mapping[str, Mapping[str, Value]]
+"""New values of keys, by the name of their table, such as `azimuth` or `mount.model`."""
 
 
-def save_table(
-    path: Path,
-    name: str,
-    *,
-    calibration: Points | None = None,
-    points: Points | None = None,
-    times_s: tuple[float, float] | None = None,
-    **values: Value,
-) -> None:
-    """Replace keys of a table, such as `azimuth` or `mount.model`, all or none. None leaves a key as it is.
+def save_tables(path: Path, tables: Tables) -> None:
+    """Replace these keys of the file, all or none; the old file stays beside it as `.bak`.
 
-    `times_s`: of the axis `name`, for its table in [timed].
-
-    The old file stays beside it as `.bak`. Raises OSError or ConfigError, and then the file is unchanged.
+    Raises OSError or ConfigError, and then the file is unchanged.
     """
     with WRITING:
         try:
@@ -41,7 +32,7 @@ def save_table(
             if is_empty(before):
                 # Another program has emptied it. With these keys alone it would be the file of a simulated station.
                 raise ConfigError(str(path), [Mistake("is empty")])
-            text = changed(before, name, calibration=calibration, points=points, times_s=times_s, **values)
+            text = changed(before, tables)
         except (FormatError, NoChangeError) as fault:
             raise ConfigError(str(path), [Mistake(str(fault))]) from fault
         except ValueError as fault:
@@ -51,28 +42,16 @@ def save_table(
         replace(path, before, text)
 
 
-def changed(
-    text: str,
-    name: str,
-    *,
-    calibration: Points | None = None,
-    points: Points | None = None,
-    times_s: tuple[float, float] | None = None,
-    **values: Value,
-) -> str:
-    """The file's text with these keys in the table `[name]`; everything else as it was."""
-    table = tuple(name.split("."))
-    wanted: dict[Place, object] = {(*table, key): _written(value) for key, value in values.items()}
-    park = toml_of(text).get("mount", {}).get(f"park_{name}_deg")
-    if park is not None and "min_deg" in values and "max_deg" in values:
-        # A rotor that turns less far than the file had it parks as near to its old place as it can.
-        wanted["mount", f"park_{name}_deg"] = _short(min(max(park, values["min_deg"]), values["max_deg"]), 3)
-    for key, time_s in zip(("to_high_s", "to_low_s"), times_s or (), strict=False):
-        wanted["timed", name, key] = _short(time_s, 1)
-    for key, rows in (("calibration", calibration), ("points", points)):
-        if rows is not None:
-            # The first number of a calibration's point is a share of the sensor's range, and needs more decimals.
-            wanted[*table, key] = [[round(first, 5), *(_short(each, 3) for each in others)] for first, *others in rows]
+def changed(text: str, tables: Tables) -> str:
+    """The file's text with these keys; everything else as it was."""
+    wanted: dict[Place, object] = {}
+    mount = toml_of(text).get("mount", {})
+    for name, values in tables.items():
+        wanted |= {(*name.split("."), key): _written(value) for key, value in values.items()}
+        match mount.get(park := f"park_{name}_deg"), values:
+            case float() | int() as park_deg, {"min_deg": float(least_deg), "max_deg": float(most_deg)}:
+                # A rotor that turns less far than the file had it parks as near to its old place as it can.
+                wanted["mount", park] = _short(min(max(park_deg, least_deg), most_deg))
     return edited(text, [Change(place, value) for place, value in wanted.items()])
 
 
@@ -80,12 +59,18 @@ def _written(value: Value) -> object:
     match value:
         case bool():
             return value
-        case tuple():
-            return [_short(each, 3) for each in value]
-    return _short(value, 3)
+        case float() | int():
+            return _short(value)
+    return [_row(each) if isinstance(each, Sequence) else _short(each) for each in value]
 
 
-def _short(value: float, digits: int) -> float | int:
+def _row(row: Sequence[float]) -> list[float]:
+    """The first number of a calibration's point is a share of the sensor's range, and needs more decimals."""
+    first, *others = row
+    return [round(first, 5), *map(_short, others)]
+
+
+def _short(value: float) -> float | int:
     """450 rather than 450.0, as in a file written by hand."""
-    value = round(value, digits)
+    value = round(value, 3)
     return int(value) if value == int(value) else value

@@ -113,9 +113,9 @@ class Autosave:
             log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
             return True
         try:
-            from rotator.config.save import save_table  # noqa: PLC0415 - loads tomlkit, which a start can do without
+            from rotator.config.save import save_tables  # noqa: PLC0415 - loads tomlkit, which a start can do without
 
-            save_table(self._path, axis.value, calibration=self._offsets.own_scale(axis, points))
+            save_tables(self._path, {axis.value: {"calibration": self._offsets.own_scale(axis, points)}})
         except (OSError, ConfigError) as fault:
             if self._troubles.get(axis) != str(fault):
                 log.error("%s: calibration cannot be saved, it is tried again: %s", axis.value, fault)

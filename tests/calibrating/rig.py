@@ -12,7 +12,7 @@ from hw.ports import Axis
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import from_line
-from rotator.calibrating.receiver import Strength
+from rotator.calibrating.receiver import Receiver, Strength
 from rotator.calibrating.rig import AxisRig, NorthRig
 from rotator.calibrating.sky_rig import SkyRig
 from rotator.config.model import Config
@@ -129,11 +129,12 @@ class NorthCalibration(Calibration):
         super()._cycle()
 
 
-class Told:
+class Told(Receiver):
     """A receiver whose strength comes from a function."""
 
-    def __init__(self, latest: Callable[[], Strength | None]) -> None:
-        self.latest = latest
+    def __init__(self, told: Callable[[], Strength | None]) -> None:
+        super().__init__(("", 0), lambda: 0.0)
+        self.latest = told  # type: ignore[method-assign]
 
     def start(self) -> None:
         """It needs no thread."""

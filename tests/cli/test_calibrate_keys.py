@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.calibrating.axis_guide import AxisFacts
 from rotator.calibrating.entries import Entry, Number, StopNow, Unknown, Word
+from rotator.calibrating.facts import AxisFacts
 from rotator.calibrating.table_guide import TableGuide
 from rotator.exchange.status import AxisStatus, Status
 

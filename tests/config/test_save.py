@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rotator.config.load import ConfigError, load
-from rotator.config.save import changed, save_table
+from rotator.config.save import changed, save_tables
 
 STATION = """# My station.
 [azimuth]                     # a G-5500
@@ -35,7 +35,9 @@ def station(tmp_path: Path) -> Path:
 
 
 def test_all_keys_are_in_the_file_the_rest_stays_and_the_file_before_is_kept(station: Path) -> None:
-    save_table(station, "azimuth", calibration=POINTS, min_deg=0.0, max_deg=450.0, direction_checked=True)
+    save_tables(
+        station, {"azimuth": {"calibration": POINTS, "min_deg": 0.0, "max_deg": 450.0, "direction_checked": True}}
+    )
     azimuth = load(station).azimuth
     assert azimuth.calibration == [(0.05123, -1.5), (0.4, 200.0), (0.949, 451.25)]
     assert (azimuth.min_deg, azimuth.max_deg, azimuth.direction_checked) == (0.0, 450.0, True)
@@ -49,19 +51,20 @@ def test_all_keys_are_in_the_file_the_rest_stays_and_the_file_before_is_kept(sta
 
 def test_a_range_that_leaves_the_park_position_out_takes_it_along(station: Path) -> None:
     """Else the file would be refused, and the calibration lost."""
-    save_table(station, "azimuth", calibration=POINTS, min_deg=200.0, max_deg=451.0)
+    save_tables(station, {"azimuth": {"calibration": POINTS, "min_deg": 200.0, "max_deg": 451.0}})
     assert load(station).park_deg == (200.0, 0.0)
     assert "park_azimuth_deg = 200        # south" in station.read_text()
 
 
 def test_numbers_are_written_as_a_person_would() -> None:
-    assert changed("", "elevation", calibration=((0.05, 0.0), (0.95, 180.0)), min_deg=0.0, max_deg=89.5) == (
+    keys = {"min_deg": 0.0, "max_deg": 89.5, "calibration": ((0.05, 0.0), (0.95, 180.0))}
+    assert changed("", {"elevation": keys}) == (
         "[elevation]\nmin_deg = 0\nmax_deg = 89.5\ncalibration = [[0.05, 0], [0.95, 180]]\n"
     )
 
 
 def test_a_long_table_has_a_line_for_each_point() -> None:
-    text = changed("", "azimuth", calibration=tuple((at / 10, at * 45.0) for at in range(1, 10)))
+    text = changed("", {"azimuth": {"calibration": tuple((at / 10, at * 45.0) for at in range(1, 10))}})
     assert "\n    [0.1, 45],\n    [0.2, 90],\n" in text
 
 
@@ -80,7 +83,7 @@ def test_a_long_table_has_a_line_for_each_point() -> None:
 def test_any_form_of_file(tmp_path: Path, text: str) -> None:
     path = tmp_path / "a.toml"
     path.write_bytes(text.encode())
-    save_table(path, "azimuth", calibration=POINTS, min_deg=0.0, direction_checked=True)
+    save_tables(path, {"azimuth": {"calibration": POINTS, "min_deg": 0.0, "direction_checked": True}})
     azimuth = load(path).azimuth
     assert azimuth.direction_checked
     assert azimuth.calibration is not None
@@ -103,6 +106,6 @@ def test_any_form_of_file(tmp_path: Path, text: str) -> None:
 def test_what_would_not_be_accepted_is_not_written(station: Path, text: str, keys: dict[str, Any], said: str) -> None:
     station.write_text(text)
     with pytest.raises(ConfigError, match=said):
-        save_table(station, "azimuth", **keys)
+        save_tables(station, {"azimuth": keys})
     assert station.read_text() == text
     assert [path.name for path in station.parent.iterdir()] == ["station.toml"]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rotator.config.load import ConfigError, load, parse
-from rotator.config.save import save_table
+from rotator.config.save import save_tables
 
 LINK = '[[link]]\nprotocol = "gs232b"\npty = "x"\n'
 
@@ -106,7 +106,7 @@ def test_a_byte_order_mark_is_no_mistake(tmp_path: Path) -> None:
     path = tmp_path / "rotator.toml"
     path.write_text("[azimuth]\nmin_deg = 10\n", encoding="utf-8-sig")
     assert load(path).azimuth.min_deg == 10.0
-    save_table(path, "azimuth", max_deg=300.0)
+    save_tables(path, {"azimuth": {"max_deg": 300.0}})
     assert load(path).azimuth.max_deg == 300.0
 
 

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 import pytest
 
 from firmware_sim.parts.rigctld import SimRigctld
-from rotator.calibrating.receiver import RigctldReceiver, Strength
+from rotator.calibrating.receiver import Receiver, Strength
 from tests.boxes import free_port
 
 DUMMY_RIG = "1"
@@ -19,8 +19,8 @@ PATIENCE_S = 20.0
 
 
 @contextmanager
-def asked(place: tuple[str, int], close: Callable[[], None] = lambda: None) -> Iterator[RigctldReceiver]:
-    receiver = RigctldReceiver(place, time.monotonic, close)
+def asked(place: tuple[str, int], close: Callable[[], None] = lambda: None) -> Iterator[Receiver]:
+    receiver = Receiver(place, time.monotonic, close)
     receiver.start()
     try:
         yield receiver
@@ -28,7 +28,7 @@ def asked(place: tuple[str, int], close: Callable[[], None] = lambda: None) -> I
         receiver.stop()
 
 
-def awaited(receiver: RigctldReceiver, wanted: Callable[[Strength], bool]) -> Strength:
+def awaited(receiver: Receiver, wanted: Callable[[Strength], bool]) -> Strength:
     """What it tells, as soon as it is what is wanted."""
     until_s = time.monotonic() + PATIENCE_S
     while time.monotonic() < until_s:

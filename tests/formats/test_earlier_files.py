@@ -15,7 +15,7 @@ from hw.ports import Axis
 from rotator.assembly.kept_files import build_learnt
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.config.save import save_table
+from rotator.config.save import save_tables
 from rotator.exchange.faults import FaultKind
 from rotator.exchange.motor import Motor, Tries, Trust
 from rotator.exchange.status import Latch
@@ -66,7 +66,7 @@ def test_it_means_today_what_it_meant_then() -> None:
 
 def test_a_calibration_is_saved_into_it_and_the_rest_stays(tmp_path: Path) -> None:
     mine = Path(shutil.copy(FIRST / "station.toml", tmp_path))
-    save_table(mine, "azimuth", calibration=((0.05, 0.0), (0.95, 450.0)))
+    save_tables(mine, {"azimuth": {"calibration": ((0.05, 0.0), (0.95, 450.0))}})
     assert load(mine).azimuth.calibration == [(0.05, 0), (0.95, 450)]
     assert "# the chimney" in mine.read_text(encoding="utf-8")
     assert (tmp_path / "station.toml.bak").read_bytes() == (FIRST / "station.toml").read_bytes()

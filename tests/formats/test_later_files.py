@@ -16,7 +16,7 @@ from tomlkit import TOMLDocument
 from hw.ports import Axis
 from rotator.config import migrations
 from rotator.config.load import ConfigError, load
-from rotator.config.save import save_table
+from rotator.config.save import save_tables
 from rotator.store.counts import LOST, CountsFile
 from rotator.store.json_file import Form, JsonFile, decode
 
@@ -76,7 +76,7 @@ def test_a_later_configuration_is_refused_in_one_sentence(tmp_path: Path) -> Non
         "update the program, or take the file from before the update (.bak)"
     ]
     with pytest.raises(ConfigError, match="a later version"):
-        save_table(path, "azimuth", direction_checked=True)
+        save_tables(path, {"azimuth": {"direction_checked": True}})
     assert isinstance(CliRunner().invoke(cli, ["run", "--config", str(path)]).exception, ConfigError)
     assert path.read_text() == LATER_STATION
     assert [each.name for each in tmp_path.iterdir()] == ["rotator.toml"]
@@ -94,7 +94,7 @@ def test_the_number_of_today_may_stand_there(tmp_path: Path) -> None:
     path = tmp_path / "rotator.toml"
     path.write_text("format = 1\n\n[azimuth]\nmax_deg = 360\n")
     assert load(path).azimuth.max_deg == 360
-    save_table(path, "azimuth", direction_checked=True)
+    save_tables(path, {"azimuth": {"direction_checked": True}})
     assert path.read_text().startswith("format = 1\n")
 
 
