@@ -15,6 +15,8 @@ from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
 
+__all__ = ["ArduinoStation", "arduino_station"]
+
 
 def arduino_station(
     config: Config, clock: Callable[[], float], sleep: Callable[[float], None], start_deg: tuple[float, float]

@@ -77,6 +77,5 @@ def panel_thread(
     panel = Panel(
         PanelSettings(table.has_mode_switch, nudge_deg, wiring, LAMP_TEST_S), state.load(KNOBS) if state else {}
     )
-    if state is None:
-        return PanelThread(panel, parts, status, post, clock, pulses=pulses, failed=failed)
-    return PanelThread(panel, parts, status, post, clock, keep=partial(state.keep, KNOBS), pulses=pulses, failed=failed)
+    keep = partial(state.keep, KNOBS) if state else lambda _full_scales: True
+    return PanelThread(panel, parts, status, post, clock, keep=keep, pulses=pulses, failed=failed)

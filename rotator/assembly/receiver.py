@@ -15,18 +15,15 @@ from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg
 
 
-def simulated_receiver(
+def simulated_rigctld(
     config: Config, world: SimRotor, clock: Callable[[], float], source: Callable[[], tuple[float, float]]
-) -> SimReceiver:
-    """A receiver that hears by where the simulated boom points. `source`: azimuth and elevation of the signal."""
+) -> SimRigctld:
+    """A simulated rigctld, whose receiver hears by where the simulated boom points. It listens on a port of its own
+    until it is closed. `source`: azimuth and elevation of the signal.
+    """
     boom = simulated_boom(config)
 
     def off_deg() -> float:
         return great_circle_deg(*boom(*world.antenna()), *source())
 
-    return SimReceiver(ReceiverSpec(config.station.beam_deg), clock, off_deg)
-
-
-def simulated_rigctld(receiver: SimReceiver) -> SimRigctld:
-    """A simulated rigctld; it listens on a port of its own until it is closed."""
-    return SimRigctld(receiver.strength_db)
+    return SimRigctld(SimReceiver(ReceiverSpec(config.station.beam_deg), clock, off_deg).strength_db)

@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 
 from hw.ports import Axis
 from rotator.assembly.calibration import guided_controller
-from rotator.assembly.receiver import simulated_receiver, simulated_rigctld
+from rotator.assembly.receiver import simulated_rigctld
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import Entry
@@ -121,7 +121,7 @@ def receiver_at(
     if words != SIMULATED:
         return Receiver(address(words), clock)
     assert station.world is not None, "only a simulated rotor has one: see `check`"
-    alike = simulated_rigctld(simulated_receiver(config, station.world, clock, source))
+    alike = simulated_rigctld(config, station.world, clock, source)
     return Receiver(alike.place, clock, alike.close)
 
 

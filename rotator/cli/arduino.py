@@ -12,11 +12,10 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import Protocol
 
 from rich.console import RenderableType
 
-from rotator.assembly.arduino import arduino_station
+from rotator.assembly.arduino import ArduinoStation, arduino_station
 from rotator.cli.commands import draws
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals, terminal_console
@@ -29,25 +28,10 @@ from rotator.views import terminal
 JOIN_S = 2.0
 
 
-class Sketch(Protocol):
-    """The emulated board with its sketch, from outside."""
-
-    def host_send(self, data: bytes) -> None:
-        """Bytes from the PC, on the serial line."""
-
-    def lcd_text(self) -> tuple[str, ...]: ...
-
-    def drives(self) -> tuple[int, int]:
-        """Azimuth and elevation: -1, 0 or 1."""
-
-    def run(self, stop: threading.Event) -> None:
-        """In real time, until `stop` is set."""
-
-
 class ArduinoSession(Talk):
     """The sketch's end of the serial line: passes bytes to the board, which never answers."""
 
-    def __init__(self, sketch: Sketch, wire: Wire) -> None:
+    def __init__(self, sketch: ArduinoStation, wire: Wire) -> None:
         self._sketch = sketch
         self._wire = wire
 
@@ -64,7 +48,7 @@ def run_arduino(pty: Path, path: Path | None, *, plain: bool) -> None:
     asyncio.run(_run(sketch, pty, plain=plain or not draws()))
 
 
-async def _run(sketch: Sketch, pty: Path, *, plain: bool) -> None:
+async def _run(sketch: ArduinoStation, pty: Path, *, plain: bool) -> None:
     stop = stop_on_signals()
     log_to(logging.StreamHandler() if plain else LogRows())
     wire = Wire("USB", "F1EFW sketch", str(pty))

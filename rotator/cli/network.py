@@ -7,16 +7,14 @@ says who has asked.
 
 from __future__ import annotations
 
-import ipaddress
 import re
 import select
 import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 
 import click
@@ -39,25 +37,6 @@ _UNITS = ("etc/systemd/system", "lib/systemd/system", "usr/lib/systemd/system")
 _LATER = "ADDRESS"
 """In place of an address that is not known yet."""
 _POSITION = re.compile(rb"\s*+[+;|,]?\s*+(?:p|\\get_pos)\s*")
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What was opened, and to whom."""
-
-    port: int
-    allow: str | None
-    """None: every machine."""
-
-    def lets_in(self, host: str) -> bool:
-        with suppress(ValueError):
-            return self.allow is None or ipaddress.ip_address(host) in ipaddress.ip_network(self.allow)
-        return False
-
-    def is_open(self, keys: Mapping[str, object]) -> bool:
-        """Whether a running link has these settings."""
-        right = None if self.allow is None else ["127.0.0.1", self.allow]
-        return keys.get("tcp") == f"0.0.0.0:{self.port}" and keys.get("allow") == right
 
 
 def open_network(root: Path, settings: Path | None, allow: str | None, *, undo: bool, yes: bool) -> None:
@@ -87,7 +66,7 @@ def open_network(root: Path, settings: Path | None, allow: str | None, *, undo: 
     address = _LATER if card else next((str(each.ip) for each in machine.addresses), name)
     _say_what_to_type(announced or address, address, opened)
     if not yes and not card and sys.stdin.isatty():
-        _try_it(path, Asked(opened.port, chosen), restart if changed else "")
+        _try_it(path, opened, restart if changed else "")
 
 
 def _chosen(allow: str | None, machine: Machine, *, yes: bool, card: bool) -> str | None:
@@ -145,7 +124,7 @@ On the PC{instead}:
         click.echo(f"  Browser    http://{host}:{opened.page}")
 
 
-def _try_it(path: Path, asked: Asked, restart: str) -> None:
+def _try_it(path: Path, opened: network.Opened, restart: str) -> None:
     """Have the box started again where `restart` names the command, and wait for the PC."""
     if restart and restart.startswith("sudo") and _service_runs():
         if not click.confirm("\nStart the box again now? A moving antenna stops.", default=False):
@@ -157,7 +136,7 @@ def _try_it(path: Path, asked: Asked, restart: str) -> None:
         say(f"\nA box that runs has the old settings: end it, and start it again: {restart}")
     if not click.confirm("Wait here for the PC's first question?", default=True):
         return
-    wait_for_the_pc(path, asked)
+    wait_for_the_pc(path, opened)
 
 
 def _wait_until_it_answers(path: Path) -> None:
@@ -169,7 +148,7 @@ def _wait_until_it_answers(path: Path) -> None:
         time.sleep(0.1)
 
 
-def wait_for_the_pc(path: Path, asked: Asked, patience_s: float = PATIENCE_S) -> bool:
+def wait_for_the_pc(path: Path, opened: network.Opened, patience_s: float = PATIENCE_S) -> bool:
     """Say who has asked for the position through the port; False: no other computer has, in that time.
 
     Raises SetupError where no box runs, or one that has not read the new settings.
@@ -180,11 +159,11 @@ def wait_for_the_pc(path: Path, asked: Asked, patience_s: float = PATIENCE_S) ->
         raise SetupError(f"{fault}; then type the line for Hamlib on the PC") from fault
     click.echo("Waiting for the PC (Ctrl-C ends) ...")
     with box, suppress(KeyboardInterrupt):
-        for host in _asking(box, asked, time.monotonic() + patience_s):
+        for host in _asking(box, opened, time.monotonic() + patience_s):
             if host.startswith(("127.", "::1")):
                 continue
-            if not asked.lets_in(host):
-                say(f"{host} has just asked, and is not in {asked.allow}: give --allow a network that it is in.")
+            if not opened.lets_in(host):
+                say(f"{host} has just asked, and is not in {opened.allow}: give --allow a network that it is in.")
                 return False
             click.echo(f"{host} has just asked for the position: it works.")
             return True
@@ -195,7 +174,7 @@ def wait_for_the_pc(path: Path, asked: Asked, patience_s: float = PATIENCE_S) ->
     return False
 
 
-def _asking(box: socket.socket, asked: Asked, deadline_s: float) -> Iterator[str]:
+def _asking(box: socket.socket, opened: network.Opened, deadline_s: float) -> Iterator[str]:
     """The address of each machine that asks for the position on the link that was opened. Raises SetupError."""
     names: set[str] = set()
     hosts: dict[Source, str] = {}
@@ -209,8 +188,8 @@ def _asking(box: socket.socket, asked: Asked, deadline_s: float) -> Iterator[str
         *lines, rest = (rest + data).split(b"\n")
         for line in lines:
             match parse(line.decode("ascii", "replace")):
-                case LinkNote(name, keys) if str(keys.get("tcp", "")).endswith(f":{asked.port}"):
-                    if not asked.is_open(keys):
+                case LinkNote(name, keys) if str(keys.get("tcp", "")).endswith(f":{opened.port}"):
+                    if not opened.is_open(keys):
                         raise SetupError("the running box has the old settings: start it again first, then try the PC")
                     names.add(name)
                 case Peer(source, host):

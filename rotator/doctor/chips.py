@@ -15,7 +15,7 @@ from rotator.assembly.chips import Bus, Chips
 from rotator.config.axes import AxisTable
 from rotator.config.chips import ADDRESSES, I2CChip
 from rotator.config.model import Config
-from rotator.config.sensors import TILTS
+from rotator.config.sensors import TILTS, SensorTable
 from rotator.doctor.finding import Finding, fine, refused, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 from rotator.setup.pi import known
@@ -127,25 +127,18 @@ def _reading(axis: str, table: AxisTable, pin: str, supply_v: float, volts: list
     )
 
 
-NAMES = {
-    "as5600": "AS5600",
-    "as5045": "AS5045",
-    "as5048a": "AS5048A",
-    "as5048b": "AS5048B",
-    "mt6701": "MT6701",
-    "mt6701-ssi": "MT6701",
-    "mpu6050": "MPU6050",
-    "adxl345": "ADXL345",
-    "lsm303-accel": "LSM303DLHC",
-    "qmc5883l": "QMC5883L",
-    "hmc5883l": "HMC5883L",
-    "lsm303-mag": "LSM303DLHC",
-}
+NAMES = {"mt6701-ssi": "MT6701", "lsm303-accel": "LSM303DLHC", "lsm303-mag": "LSM303DLHC"}
+"""What stands on a chip, where that is not the word of the file in capitals."""
 
 
 def sensed(config: Config) -> list[Axis]:
     """The axes with a sensor chip."""
-    return [axis for axis in config.fitted if config.axis(axis).sensor.kind in NAMES]
+    return [axis for axis in config.fitted if config.axis(axis).sensor.kind not in ("own", "pot")]
+
+
+def _printed(sensor: SensorTable) -> str:
+    """The name that stands on the chip."""
+    return NAMES.get(sensor.kind, sensor.kind.upper())
 
 
 def counters(config: Config) -> list[Axis]:
@@ -157,7 +150,7 @@ def counters(config: Config) -> list[Axis]:
 def sensors(machine: Machine, config: Config) -> Iterator[Finding]:
     for axis in sensed(config):
         table = config.axis(axis).sensor
-        absent = _at(machine.chips, *table.i2c, f"{axis.value}: {NAMES[table.kind]}") if table.i2c else None
+        absent = _at(machine.chips, *table.i2c, f"{axis.value}: {_printed(table)}") if table.i2c else None
         yield absent or _angle(machine.chips, config, axis)
     for axis in counters(config):
         try:
@@ -188,7 +181,7 @@ def _angle(chips: Chips, config: Config, axis: Axis) -> Finding:
     except HardwareError as fault:
         return refused(axis.value, fault)
     place = table.sensor.i2c
-    name = NAMES[table.sensor.kind] + (f" at 0x{place[1]:02x}" if place else "")
+    name = _printed(table.sensor) + (f" at 0x{place[1]:02x}" if place else "")
     if table.sensor.kind in TILTS:
         return fine(f"{axis.value}: {name} feels 1 g, {read:.1f}° up")
     if field_ut:

@@ -7,8 +7,9 @@ as a remark, so that the way back gives the same bytes.
 
 from __future__ import annotations
 
+import ipaddress
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -52,6 +53,18 @@ class Opened:
     port: int
     page: int | None
     """The page's port; None: the file has no page."""
+    allow: str | None
+    """The network that may; None: every machine."""
+
+    def lets_in(self, host: str) -> bool:
+        with suppress(ValueError):
+            return self.allow is None or ipaddress.ip_address(host) in ipaddress.ip_network(self.allow)
+        return False
+
+    def is_open(self, keys: Mapping[str, object]) -> bool:
+        """Whether a running link has these settings."""
+        right = None if self.allow is None else ["127.0.0.1", self.allow]
+        return keys.get("tcp") == f"0.0.0.0:{self.port}" and keys.get("allow") == right
 
 
 def plan(files: Files, root: Path, settings: Path, allow: str | None) -> tuple[ChangeSet, Opened]:
@@ -95,7 +108,7 @@ def open_to(text: str, allow: str | None) -> Opened:
     if config.page.enabled and is_this_machine(config.page.listen):
         text = _replaced(text, ("page",), _ours("listen", page, allow))
         _check_page(text, f"0.0.0.0:{page}")
-    return Opened(text, port, page if config.page.enabled else None)
+    return Opened(text, port, page if config.page.enabled else None, allow)
 
 
 def _check_page(text: str, listen: str) -> None:

@@ -57,7 +57,7 @@ def test_a_range_that_leaves_the_park_position_out_takes_it_along(station: Path)
 
 
 def test_numbers_are_written_as_a_person_would() -> None:
-    keys = {"min_deg": 0.0, "max_deg": 89.5, "calibration": ((0.05, 0.0), (0.95, 180.0))}
+    keys: dict[str, Any] = {"min_deg": 0.0, "max_deg": 89.5, "calibration": ((0.05, 0.0), (0.95, 180.0))}
     assert changed("", {"elevation": keys}) == (
         "[elevation]\nmin_deg = 0\nmax_deg = 89.5\ncalibration = [[0.05, 0], [0.95, 180]]\n"
     )

@@ -12,17 +12,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.cli.network import Asked, wait_for_the_pc
+from rotator.cli.network import wait_for_the_pc
 from rotator.config.load import SIMULATED, parse, profiles, shipped
 from rotator.exchange.sources import Source
 from rotator.links.listening import addresses
 from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
 from rotator.setup.network import BLOCK as MARKS
-from rotator.setup.network import closed, open_to
+from rotator.setup.network import Opened, closed, open_to
 from rotator.setup.plan import SetupError
 from tests.setup.conftest import ROTATOR, Card
 
 PORT = 4533
+TO_THE_PC = Opened("", PORT, None, "192.168.1.0/24")
 BEGIN, END = MARKS.begin, MARKS.end
 ANNOUNCED = "etc/avahi/services/rotator.service"
 BLOCK = f"""\
@@ -248,8 +249,8 @@ def test_what_the_first_question_of_a_pc_proves(
     shower.start()
     if works is None:
         with pytest.raises(SetupError, match=said):
-            wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
+            wait_for_the_pc(box.config, TO_THE_PC, 20.0)
     else:
-        assert wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0) is works
+        assert wait_for_the_pc(box.config, TO_THE_PC, 20.0) is works
         assert said in capsys.readouterr().out
     shower.join()
