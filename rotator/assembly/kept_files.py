@@ -11,10 +11,8 @@ from pathlib import Path
 
 from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_offsets, own_points
-from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.places import memory_folder
-from rotator.config.sim import SimAxisTable
 from rotator.store import counts
 from rotator.store.counts import CountsFile
 from rotator.store.learnt import KeptMotors
@@ -59,20 +57,15 @@ def build_modelled_file(config: Config) -> CountsFile | None:
 def build_learnt(config: Config, state: State) -> KeptMotors:
     """The learnt motors. Figures that were learnt with other settings of the motor are ignored."""
 
-    def described(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
+    def described(axis: Axis) -> dict[str, object]:
+        table = config.axis(axis)
         motor: dict[str, object] = {"hardware": config.rotor.hardware}
         motor |= {"speed_dps": table.speed_dps, "coast_s": table.coast_s}
         if config.rotor.hardware == "sim":
-            motor["sim"] = sim.model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
+            motor["sim"] = config.sim.of(axis).model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
         return motor
 
-    return KeptMotors(
-        state,
-        {
-            Axis.AZIMUTH: described(config.azimuth, config.sim.azimuth),
-            Axis.ELEVATION: described(config.elevation, config.sim.elevation),
-        },
-    )
+    return KeptMotors(state, {axis: described(axis) for axis in Axis})
 
 
 def _scale(config: Config, axis: Axis) -> dict[str, object]:

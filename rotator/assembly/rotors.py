@@ -7,6 +7,7 @@ Part of the composition root. Chooses the sensor of each axis. The use of these 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from hw.ports import AngleSensor, Axis, Direction, HardwareError, LeaseWatch
@@ -19,39 +20,34 @@ from rotator.assembly.sensors import sensor_chip
 from rotator.assembly.settings import build_offsets
 from rotator.config.model import Config
 from rotator.rotors.common import BlockedDirections, no_switches
-from rotator.rotors.counts_writer import CountsWriter, Later, at_once
+from rotator.rotors.counts_writer import CountsWriter, Later
 from rotator.store.counts import NEVER, CountsFile, Place, Standing
 
 
+@dataclass(eq=False)
 class Assembly:
-    """`in_step`: time is simulated. `counts`: the file for counted axes; None: there is none. `write`: where
-    time is simulated, it calls the functions that write that file.
+    """Raises HardwareError."""
 
-    `start_deg`: where a simulated axis stands at first, on the rotor's own scale. `watch`: what opens the relays when
-    the program no longer renews their leases. Raises HardwareError.
-    """
+    config: Config
+    board: Board
+    watch: LeaseWatch | None
+    """What opens the relays when the program no longer renews their leases."""
+    start_deg: Callable[[Axis], float]
+    """Where a simulated axis stands at first, on the rotor's own scale."""
+    counts: Path | None
+    """The file for counted axes; None: there is none."""
+    write: Later | None
+    """Calls the functions that write that file, where time is simulated; None: it is not."""
 
-    def __init__(
-        self,
-        config: Config,
-        board: Board,
-        watch: LeaseWatch | None,
-        *,
-        start_deg: Callable[[Axis], float],
-        counts: Path | None,
-        in_step: bool,
-        write: Later = at_once,
-    ) -> None:
-        self.config = config
-        self.board = board
-        self.watch = watch
-        self.start_deg = start_deg
-        self.counts = counts
-        self.in_step = in_step
-        self.write: Later | None = write if in_step else None
-        self.shift = build_offsets(config)
-        self.ends = _limit_switches(config, board)
+    def __post_init__(self) -> None:
+        self.shift = build_offsets(self.config)
+        self.ends = _limit_switches(self.config, self.board)
         self._adc: Converter | None = None
+
+    @property
+    def in_step(self) -> bool:
+        """Time is simulated."""
+        return self.write is not None
 
     def sensors(self, own: Mapping[Axis, AngleSensor] | None = None) -> dict[Axis, AngleSensor]:
         """The sensor of each axis: the one that the file names, else the rotor's `own`."""

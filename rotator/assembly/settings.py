@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from hw.drives.brake import BrakeTimes
-from hw.ports import AngleSource, Axis
+from hw.ports import Axis
 from hw.sensors.timed import STANDS_LAGS, STANDS_S
 from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
@@ -155,7 +155,7 @@ def axis_settings(
             calibration=calibration,
             sensor=config.angle(axis).sensor,
             missing=EVERYTHING if commissioning else lacks,
-            source=source(config, axis),
+            source=config.angle(axis).source,
             near_deg=NEAR_DEG + config.kind.slack_deg(axis),
             accel_dps2=config.kind.accel_dps2(axis),
             reversal_rest_s=config.kind.reversal_rest_s(axis),
@@ -175,7 +175,7 @@ def axis_settings(
         sensor=config.angle(axis).sensor,
         behind_s=config.angle(axis).behind_s,
         missing=EVERYTHING if commissioning else lacks,
-        source=source(config, axis),
+        source=config.angle(axis).source,
         longest_run_s=table.longest_run_s,
         rest_s=table.rest_s,
         master=config.relays.master is not None,
@@ -244,11 +244,6 @@ def own_points(config: Config, axis: Axis) -> Points | None:
         low_raw, high_raw = SIM_CALIBRATION_RAW
         return (low_raw, table.min_deg), (high_raw, table.max_deg)
     return None
-
-
-def source(config: Config, axis: Axis) -> AngleSource:
-    """How the angle of the axis is known."""
-    return config.angle(axis).source
 
 
 def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | TimedHomingSettings | None:

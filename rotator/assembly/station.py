@@ -107,8 +107,7 @@ class Station:
                 self.sentinel or watch,
                 start_deg=simulated.start_deg,
                 counts=counts,
-                in_step=add_alarm is not None,
-                write=write,
+                write=write if add_alarm else None,
             )
             self.rotor = builder(config.rotor.type).build(parts, outputs)
             self.panel = self._open_panel() if config.panel.fitted else None

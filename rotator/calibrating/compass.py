@@ -33,15 +33,9 @@ class CompassReader(OwnThread):
         self._clock = clock
         self._corrections = corrections
         self._restored = False
-        self._save_wanted = threading.Event()
-
-    def request_save(self) -> None:
-        """Save the corrections before the next reading. The compass gives no angles for a moment meanwhile."""
-        self._save_wanted.set()
-
-    @property
-    def save_pending(self) -> bool:
-        return self._save_wanted.is_set()
+        self.save_wanted = threading.Event()
+        """Set it, and the corrections are saved before the next reading; then it is clear again. The compass gives no
+        angles for a moment meanwhile."""
 
     def read(self) -> None:
         """Take one reading. Never raises."""
@@ -67,7 +61,7 @@ class CompassReader(OwnThread):
             self.messages.append("The compass has been given back what it had learnt.")
 
     def _save(self) -> None:
-        if not self._save_wanted.is_set():
+        if not self.save_wanted.is_set():
             return
         try:
             offsets = self._compass.offsets()
@@ -79,7 +73,7 @@ class CompassReader(OwnThread):
                 if not state.keep(COMPASS, offsets):
                     said = f"{state.path}: what the compass learnt cannot be kept: {state.trouble}"
                 self.messages.append(f"   {said}.")
-        self._save_wanted.clear()
+        self.save_wanted.clear()
 
     def _run(self) -> None:
         while not self._stopping.is_set():

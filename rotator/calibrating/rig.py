@@ -131,9 +131,9 @@ class NorthRig(Rig):
             self.guide.see(reader.latest)
         lines = super().step(entry)
         if self.guide.save_wanted and not self._saving:
-            reader.request_save()
+            reader.save_wanted.set()
             self._saving = True
-        elif self._saving and not reader.save_pending:
+        elif self._saving and not reader.save_wanted.is_set():
             self.guide.save_wanted = self._saving = False
         return (*lines, *(reader.messages.popleft() for _ in range(len(reader.messages))))
 

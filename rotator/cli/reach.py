@@ -89,7 +89,11 @@ def reach(path: Path | None, sockets: Callable[[Path | None], Sequence[Path]]) -
         rivals = [other for other, _ in others if place != tried[0] or other in _of_the_service()]
         if rivals:
             box.close()
-            raise CommandFailed(_which((place, *rivals), tried[0]))
+            names = named((place, *rivals), tried[0])
+            raise CommandFailed(
+                f"{len(names)} boxes run: {'; '.join(names)}. Say which: name its file with --config, or go into its "
+                "folder"
+            )
     return box
 
 
@@ -103,11 +107,6 @@ def named(running: Sequence[Path], here: Path | None = None) -> list[str]:
     names |= {socket_path: each.named for each in boxes() for socket_path in (each.monitor, console_path(each.monitor))}
     names |= dict.fromkeys(_of_the_service(), f"the service (--config {INSTALLED})")
     return [names.get(place, str(place)) for place in running]
-
-
-def _which(running: Sequence[Path], here: Path) -> str:
-    names = "; ".join(named(running, here))
-    return f"{len(running)} boxes run: {names}. Say which: name its file with --config, or go into its folder"
 
 
 def connected(place: Path) -> socket.socket | None:

@@ -58,7 +58,7 @@ def show_where(path: Path | None, words: Sequence[str], at_s: float | None, *, a
             "el_deg": round(seen.sight.elevation_deg, 4),
             "az_dps": round(seen.azimuth_dps, 5),
             "el_dps": round(seen.elevation_dps, 5),
-            "range_km": _km(seen.sight.range_km),
+            "range_km": None if math.isinf(seen.sight.range_km) else round(seen.sight.range_km, 3),
             "expected_error_deg": round(error_deg, 4),
         }
         click.echo(json.dumps(fields))
@@ -79,7 +79,9 @@ def show_passes(
     config, site, catalogue = read_sky(path)
     from_s = time.time() if from_s is None else from_s
     try:
-        targets = [find(name, site, catalogue) for name in names] or _all(site, catalogue)
+        if not (names or catalogue.satellites):
+            raise Unknown(catalogue.none_known)
+        targets = [find(name, site, catalogue) for name in names] or satellites(site, catalogue)
     except (Unknown, NotThere) as reason:
         raise CommandFailed(str(reason)) from None
     found = [
@@ -143,17 +145,15 @@ def read_sky(path: Path | None) -> tuple[Config, Site, Catalogue]:
     return config, site, catalogue
 
 
-def _all(site: Site, catalogue: Catalogue) -> list[Target]:
-    """Every satellite whose elements sgp4 takes."""
-    if not catalogue.satellites:
-        raise Unknown(catalogue.none_known)
-    targets: list[Target] = []
+def satellites(site: Site, catalogue: Catalogue) -> list[Satellite]:
+    """Every satellite whose elements sgp4 takes. Says which are left out."""
+    found = []
     for elements in catalogue.satellites:
         try:
-            targets.append(Satellite(elements, site))
+            found.append(Satellite(elements, site))
         except NotThere as reason:
             click.echo(str(reason), err=True)
-    return targets
+    return found
 
 
 def clock_error_s(config: Config) -> float:
@@ -226,7 +226,3 @@ def _row(each: Pass, error_deg: float) -> tuple[str, ...]:
         "stays" if each.los is None else f"{each.los.azimuth_deg:.0f}°",
         sky_plan.error_words(error_deg),
     )
-
-
-def _km(range_km: float) -> float | None:
-    return None if math.isinf(range_km) else round(range_km, 3)

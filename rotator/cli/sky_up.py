@@ -15,7 +15,7 @@ from pathlib import Path
 import click
 
 from rotator.cli import sky_plan
-from rotator.cli.sky import read_sky
+from rotator.cli.sky import read_sky, satellites
 from rotator.cli.utc import local_time
 from rotator.orbits.catalogue import NOT_FETCHED
 from rotator.orbits.names import amateur_name
@@ -66,13 +66,8 @@ def show_up(path: Path | None, at_s: float | None, *, as_json: bool) -> None:
     from rotator.orbits.celestial import Body  # noqa: PLC0415 - slow to load
 
     config, site, catalogue = read_sky(path)
-    now_s, satellites = time.time() if at_s is None else at_s, []
-    for elements in catalogue.satellites:
-        try:
-            satellites.append(Satellite(elements, site))
-        except NotThere as reason:
-            click.echo(str(reason), err=True)
-    targets: list[Target] = [Body("Sun", site), Body("Moon", site), *one_of_each(satellites)]
+    now_s, known = time.time() if at_s is None else at_s, satellites(site, catalogue)
+    targets: list[Target] = [Body("Sun", site), Body("Moon", site), *one_of_each(known)]
     until_s = now_s + (AHEAD_S if as_json else 1.0)
     found = [(target, each) for target in targets for each in overhead(target, now_s, until_s)]
     if not as_json:
@@ -89,9 +84,9 @@ def show_up(path: Path | None, at_s: float | None, *, as_json: bool) -> None:
     )
     told = {"utc_s": now_s, "until_s": until_s, "left_out": max(0, len(ranked) - MOST)}
     # Without any, the sentence says what to do about it.
-    why_none = "" if satellites else catalogue.none_known
-    known = {"satellites": len(satellites), "why_none": why_none, "unfetched": why_none == NOT_FETCHED}
-    click.echo(json.dumps({**told, **known, "up": [_as_dict(*row) for row in ranked[:MOST]]}))
+    why_none = "" if known else catalogue.none_known
+    there_are = {"satellites": len(known), "why_none": why_none, "unfetched": why_none == NOT_FETCHED}
+    click.echo(json.dumps({**told, **there_are, "up": [_as_dict(*row) for row in ranked[:MOST]]}))
 
 
 def _rank(target: Target, followed: set[str]) -> str:

@@ -152,12 +152,6 @@ def _sentence(tracks: dict[str, Any]) -> str:
         text += (
             f" Expect an error of up to {tracks['expected_error_deg']:.1f}°, from the age of its elements and the clock"
         )
-        text += _beyond(tracks)
+        beyond = ": MORE THAN HALF OF THE BEAM. It needs newer elements, or the right time."
+        text += beyond if tracks["beyond_beam"] else "."
     return text
-
-
-def _beyond(tracks: dict[str, Any]) -> str:
-    """The end of the sentence."""
-    if not tracks["beyond_beam"]:
-        return "."
-    return ": MORE THAN HALF OF THE BEAM. It needs newer elements, or the right time."

@@ -137,7 +137,8 @@ class Config(Table):
         yield from needs_station(self.link) if not self.station.is_known else ()
         yield from self.adc.faults_in_use() if self.uses_adc else ()
         yield from (*self.kind.faults(axes), *self._compass_faults(), *self._switches_in_the_way())
-        yield from (*self._park_faults(), *self._sector_faults())
+        yield from self._park_faults()
+        yield from forbidden_faults(self.mount.forbidden, {axis: self.axis(axis) for axis in Axis}, self._stands_at())
         if self.notify.url and not self.page.enabled:
             yield "notify.url needs the page, which posts the notices: page.enabled = true"
         switched = self.rotor.switched
@@ -312,9 +313,6 @@ class Config(Table):
             if axis in self.fitted
             if not self.axis(axis).min_deg <= angle_deg <= self.axis(axis).max_deg
         ]
-
-    def _sector_faults(self) -> list[str]:
-        return forbidden_faults(self.mount.forbidden, {axis: self.axis(axis) for axis in Axis}, self._stands_at())
 
     def _stands_at(self) -> dict[str, Place]:
         """By key: where the antenna has to be able to stand."""

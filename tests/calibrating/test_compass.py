@@ -63,9 +63,9 @@ def test_corrections_that_cannot_be_read_are_not_saved(tmp_path: Path) -> None:
     reader, world = fitted(clock, clock.sleep, State(tmp_path / "state.json"))
     reader.read()
     world.inject("compass-gone")
-    reader.request_save()
+    reader.save_wanted.set()
     reader.read()
-    assert not reader.save_pending
+    assert not reader.save_wanted.is_set()
     assert "Not kept: " in reader.messages.pop()
     assert not list(tmp_path.iterdir())
 
@@ -76,8 +76,8 @@ def test_where_the_corrections_cannot_be_written_a_person_is_told_so(tmp_path: P
     path.parent.write_text("")  # a file where its folder should be: not even root writes there
     reader, _ = fitted(clock, clock.sleep, State(path))
     clock.sleep(1.0)
-    reader.request_save()
-    while reader.save_pending:
+    reader.save_wanted.set()
+    while reader.save_wanted.is_set():
         reader.read()
         clock.sleep(1.0)
     assert reader.messages.pop().startswith(f"   {path}: what the compass learnt cannot be kept: ")

@@ -69,9 +69,6 @@ class DigipotKind(Kind):
     def switches_supply(self) -> bool:
         return self.digipot.enable is not None
 
-    def pins(self) -> list[tuple[int, str]]:
-        return [(line.pin, line.key) for line in self.off_lines()]
-
     def spi_uses(self) -> list[SpiUse]:
         table = self.digipot
         selects = {f"{axis.value}.select": table.of(axis).select for axis in Axis}

@@ -136,7 +136,7 @@ class HBridgeKind(Kind):
         return self.bridge.enable is not None
 
     def pins(self) -> list[tuple[int, str]]:
-        used = [(line.pin, line.key) for line in self.off_lines()]
+        used = Kind.pins(self)
         for axis in Axis:
             table = self.bridge.of(axis)
             channels = ("a", "b")[: self.bridge.channels] if table.counter == "kernel" else ()

@@ -80,7 +80,7 @@ class Kind:
 
     def pins(self) -> list[tuple[int, str]]:
         """Every GPIO in use except those of SPI, with its key in the file."""
-        return []
+        return [(line.pin, line.key) for line in self.off_lines()]
 
     def chips(self) -> list[I2CChip]:
         """The I2C chips of the drive."""

@@ -6,7 +6,7 @@ not the converter: its table [adc] serves pots of every kind of rotor.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from hw.ports import AngleSource, Axis
@@ -40,9 +40,6 @@ class RelayPot(Kind):
         return [chip for axis, speed in self.speeds.items() for chip in speed.chips(f"{axis.value}.speed.address")]
 
     def faults(self, axes: Mapping[Axis, AxisTable]) -> Iterable[str]:
-        return self._speed_faults(axes)
-
-    def _speed_faults(self, axes: Mapping[Axis, AxisTable]) -> Iterator[str]:
         for axis, speed in self.speeds.items():
             if speed.lowest_dps >= axes[axis].speed_dps:
                 yield (

@@ -64,9 +64,6 @@ class ServoKind(Kind):
     }
     holds = "the board goes on with its last pulses, and the servos hold"
 
-    def pins(self) -> list[tuple[int, str]]:
-        return [(line.pin, line.key) for line in self.off_lines()]
-
     def chips(self) -> list[I2CChip]:
         return [I2CChip(self.servo.bus, self.servo.address, "servo.address", "PCA9685")]
 

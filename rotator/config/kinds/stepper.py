@@ -103,9 +103,6 @@ class StepperKind(Kind):
     }
     holds = "the chips stop their motors within a second, and the motors hold"
 
-    def pins(self) -> list[tuple[int, str]]:
-        return [(line.pin, line.key) for line in self.off_lines()]
-
     def spi_uses(self) -> list[SpiUse]:
         selects = {f"{axis.value}.select": self.stepper.of(axis).select for axis in Axis}
         return [SpiUse("stepper", "stepper chips", selects, KERNEL_WIRES, kernel=True, mode=MODE, speed_hz=SPEED_HZ)]
