@@ -58,8 +58,8 @@ def reader_language(wanted: Wanted, accepted: str) -> Language:
     if wanted != "auto":
         return wanted
     ranked = []
-    for at, part in enumerate(accepted[:200].split(",")):
-        name, _, quality = part.strip().partition(";q=")
+    for at, part in enumerate(accepted[:200].replace(" ", "").split(",")):
+        name, _, quality = part.partition(";q=")
         try:
             ranked.append((-float(quality or 1), at, name.partition("-")[0].lower()))
         except ValueError:

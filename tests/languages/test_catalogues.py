@@ -16,6 +16,7 @@ OTHERS = [language for language in LANGUAGES if language != "en"]
         ("auto", "de-AT,de;q=0.9,en;q=0.8", "de"),
         ("auto", "pl,cs;q=0.5,fr;q=0.7", "fr"),
         ("auto", "en-GB,de;q=0.9", "en"),
+        ("auto", "cs; q=0.5, fr ; q=0.7", "fr"),
         ("auto", "pt-BR", "pt"),
         ("auto", "xx, de;q=what", "en"),
         ("auto", "", "en"),
