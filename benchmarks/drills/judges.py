@@ -215,6 +215,17 @@ class Judges:
             if self._orders.holds(truth.name) and not self.goes_round and self._far(truth, case)
         )
 
+    def coming(self, axes: list[AxisTruth]) -> frozenset[str]:
+        """The axes that turn to where an order in force may send them."""
+        return frozenset(
+            truth.name
+            for truth, case in zip(axes, self.cases, strict=True)
+            if self._orders.holds(truth.name)
+            for goal in self._orders.axes[truth.name].goals.values()
+            if not goal.angles_deg
+            or any((place - truth.shaft_deg - case.shift_deg) * truth.speed_dps > 0.0 for place in goal.angles_deg)
+        )
+
     def _far(self, truth: AxisTruth, case: AxisCase) -> bool:
         goals, here_deg = self._orders.axes[truth.name].goals.values(), truth.shaft_deg + case.shift_deg
         far_deg = FAR_DEG + case.tolerance_deg + case.slack_deg

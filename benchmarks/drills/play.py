@@ -171,10 +171,12 @@ class _Play:
             self._acknowledged_s = self._orders.stops.acknowledged_s
             self._silence.acknowledged()
         elsewhere = self._judges.elsewhere(self._world.axes) if self._orders.sure else frozenset()
+        coming = self._judges.coming(self._world.axes)
         self._world_events.look(now_s)
         status = self._box.loop.status
         self._claims.look(now_s, self._world.axes, status)
-        self._silence.look(now_s, self._world.axes, status, ordered=ordered, there=there, elsewhere=elsewhere)
+        places = {"there": there, "elsewhere": elsewhere, "coming": coming}
+        self._silence.look(now_s, self._world.axes, status, ordered=ordered, **places)
 
     def _happen(self, event: Event, late_s: float) -> None:
         match event.who:

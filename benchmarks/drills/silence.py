@@ -107,9 +107,10 @@ class Silence:
         ordered: bool,
         there: frozenset[str] = frozenset(),
         elsewhere: frozenset[str] = frozenset(),
+        coming: frozenset[str] = frozenset(),
     ) -> None:
         """`ordered`: an order is in force. `there`: axes whose control box has arrived. `elsewhere`: axes that an order
-        certainly sends to another angle.
+        certainly sends to another angle. `coming`: axes that turn to where an order may send them.
         """
         past_s, self._looked_s = now_s - self._looked_s, now_s
         each_axis = [notice.text for axis in Axis for notice in status.axis(axis).notices]
@@ -121,7 +122,7 @@ class Silence:
             truth = axes[0 if each.axis == "azimuth" else 1]
             # The box counts bad readings. In a late cycle there are fewer readings than the time suggests.
             more_s = min(past_s, PERIOD_S) if each.rule.shows is Shows.AS_READ else past_s
-            wanted = ordered, truth.name in elsewhere
+            wanted = ordered, truth.name in elsewhere, truth.name in coming
             if self._to_be_seen(each, truth, wanted, there):
                 each.seen_s += more_s
             elif not (each.rule.shows is Shows.WELDED and truth.coil):  # seen in one pause, it is not forgotten
@@ -147,8 +148,10 @@ class Silence:
         waits = case.counts and fault.rule.shows in (*CURRENT, Shows.WITHOUT_CURRENT, Shows.WELDED)
         return max(fault.rule.within_s, case.patience_s) if waits else fault.rule.within_s
 
-    def _to_be_seen(self, fault: _Lasting, truth: AxisTruth, wanted: tuple[bool, bool], there: frozenset[str]) -> bool:
-        ordered, elsewhere = wanted
+    def _to_be_seen(
+        self, fault: _Lasting, truth: AxisTruth, wanted: tuple[bool, bool, bool], there: frozenset[str]
+    ) -> bool:
+        ordered, elsewhere, coming = wanted
         fed, turns = truth.coil != 0 and truth.name not in there, abs(truth.speed_dps) / truth.full_dps
         match fault.rule.shows:
             case Shows.AT_ONCE:
@@ -165,8 +168,8 @@ class Silence:
                 return fed and truth.stands
             case Shows.TURNED:
                 return fed and turns > TURNING_SHARE
-            case Shows.WITHOUT_CURRENT:
-                return truth.coil == 0 and turns > TURNING_SHARE
+            case Shows.WITHOUT_CURRENT:  # whose hand it is that turns an axis to its target, nothing shows
+                return truth.coil == 0 and turns > TURNING_SHARE and not coming
             case Shows.WELDED:
                 return truth.coil == 0 and truth.power != 0 and turns > TURNING_SHARE
             case Shows.BLOWN:
