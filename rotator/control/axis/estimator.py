@@ -112,6 +112,8 @@ class Estimator:
         """The fastest speed seen for certain; None: the axis was not seen to turn yet."""
         self._measured_dps: dict[Direction, float] = {}
         self._pace = 1.0
+        self._paced_s = -math.inf
+        """When it has this pace for certain."""
         # A relay is closed:
         self._from_deg: float | None = None
         """Where the present or latest run began."""
@@ -130,6 +132,8 @@ class Estimator:
         """How the axis turned when the latest run ended; None: it was not seen to turn then."""
         self.off_deg: float | None = None
         """Where the axis was when its relay opened; None: it is not known, or a gap came since."""
+        self._ended_dps = 0.0
+        """How fast the motor is at the pace at which the latest run ended: off, its speed input is at the lowest."""
         self._supplied_s = -math.inf
         """When the motor was last without a supply, with no relay closed."""
         self._weigh()
@@ -178,8 +182,8 @@ class Estimator:
 
     @property
     def full_dps(self) -> float:
-        """The motor's full speed, which it has not reached in a short run."""
-        return max(abs(self.line.speed_dps) if self.line else 0.0, self.motor_dps)
+        """The motor's full speed at the pace of the latest run, which it has not reached in a short one."""
+        return max(abs(self.line.speed_dps) if self.line else 0.0, self._ended_dps)
 
     @property
     def gone_deg(self) -> float:
@@ -193,7 +197,7 @@ class Estimator:
     def note_pace(self, pace: float) -> None:
         """An output lets the motor turn at this share of its full speed from now on."""
         if pace != self._pace:
-            self._pace = pace
+            self._pace, self._paced_s = pace, self.trend.last_s + self.motor.lag_s
             self._weigh()
 
     def note_relays(self, relays: RelayState) -> None:
@@ -201,6 +205,7 @@ class Estimator:
         if was.closed:
             self._end(relays.since_s, was)
             self._weigh()
+            self._ended_dps = self.motor_dps
         if relays.closed:
             self.motor = self.motors[relays.direction]
             self._from_deg, self.off_deg, self.line, self.turned = self.place_deg, None, None, False
@@ -324,12 +329,15 @@ class Estimator:
         if line is not None:
             self.off_deg = line.place_deg + line.speed_dps * (now_s - line.at_s)
             self.held = Behind()
-            if abs(line.speed_dps) >= EXACT_ERRORS * line.error_dps and now_s - was.begun_s >= MEASURED_AFTER_S:
+            # A line over a time in which its pace has changed belongs to no pace.
+            steady = 2.0 * line.at_s - self.trend.last_s >= self._paced_s
+            exact = abs(line.speed_dps) >= EXACT_ERRORS * line.error_dps
+            if exact and steady and now_s - was.begun_s >= MEASURED_AFTER_S:
                 self._measured_dps[was.direction] = abs(line.speed_dps) / self._pace
                 shown_dps = (abs(line.speed_dps) - line.error_dps) / self._pace
                 self._shown_dps = max(self._shown_dps or SLOWEST_DPS, shown_dps)
         elif self._stopped(min(now_s, self.trend.last_s), was):
-            self.held.note(self.full_dps, 1.0, 0.0, 0.0)
+            self.held.note(self.motor_dps, 1.0, 0.0, 0.0)
 
     def _stopped(self, now_s: float, was: RelayState) -> bool:
         """Whether something held the axis, which had turned at first. A shorter run may be gathering speed."""

@@ -7,7 +7,9 @@ import math
 import pytest
 
 from hw.ports import Direction
-from rotator.control.axis.estimator import Ahead, Behind
+from rotator.control.axis.estimator import Ahead, Behind, Estimator
+from rotator.control.axis.relay_state import RelayState
+from rotator.exchange.motor import Motor
 from tests.control.axis.watched_motor import WatchedMotor
 
 MINUS, OFF, PLUS = Direction
@@ -74,3 +76,34 @@ def test_a_run_shows_the_speed_of_its_motor_and_where_its_relay_opened(way: Dire
     rotor.look(2.0)
     assert seen.gone_deg == pytest.approx(4.0 * 0.165, abs=0.2), "its coast"
     assert min(seen.lost_deg.values()) > seen.sure_deg
+
+
+def paced_run(*speeds_dps: tuple[float, float, float]) -> Estimator:
+    """An axis of 6°/s after a run. For each part of it: its seconds, its pace, and the speed at which it turned."""
+    seen = Estimator(dict.fromkeys((PLUS, MINUS), Motor(6.0, 0.9)), 0.0)
+    now_s = at_deg = 0.0
+    for _ in range(40):
+        now_s += 0.05
+        seen.see(now_s, at_deg, supplied=True)
+    relays = RelayState().changed(now_s, PLUS)
+    seen.note_relays(relays)
+    for seconds, pace, dps in speeds_dps:
+        seen.note_pace(pace)
+        for _ in range(round(seconds / 0.05)):
+            now_s, at_deg = now_s + 0.05, at_deg + 0.05 * dps
+            seen.see(now_s, at_deg, supplied=True)
+    seen.note_relays(relays.changed(now_s, OFF))
+    return seen
+
+
+def test_a_speed_seen_while_its_pace_changed_is_not_taken_for_that_of_the_last_pace() -> None:
+    """It is not slowed down yet when it is switched off: at 6°/s, where its input says 1.2."""
+    assert paced_run((4.0, 1.0, 6.0), (0.1, 0.2, 6.0)).motor_dps == pytest.approx(1.2)
+    assert paced_run((4.0, 1.0, 6.0)).measured_dps == pytest.approx(6.0, rel=0.05)
+
+
+def test_off_its_input_is_at_the_lowest_and_it_coasts_from_the_pace_that_it_had() -> None:
+    seen = paced_run((0.3, 1.0, 3.0))
+    seen.note_pace(0.2)
+    assert seen.full_dps == pytest.approx(6.0)
+    assert seen.motor_dps == pytest.approx(1.2)
