@@ -117,7 +117,7 @@ _WHOLE = re.compile(r"[0-9]{1,6}")
 
 def parse(line: bytes) -> ConsoleCommand:
     """From one line, without its end, to a command; capitals do not matter. Raises ValueError for the operator."""
-    words = [word for word in line.lower().replace(b"\t", b" ").decode("latin-1").split(" ") if word]
+    words = [word for word in line.lower().replace(b"\t", b" ").decode("utf-8", "replace").split(" ") if word]
     match words:
         case ["status"] | ["status", "json"] | ["help"]:
             return Ask(" ".join(words))

@@ -102,7 +102,7 @@ def orders_in(heard: bytes) -> list[Order]:
         for form, order in READINGS.items():
             if len(raw) <= 200 and (found := form.fullmatch(line)) and (said := order(*found.groups())) is not None:
                 orders.append(said)
-        word = line.split(b" ")[0].decode("latin-1")
+        word = line.split(b" ")[0].decode("utf-8", "replace")
         meant = difflib.get_close_matches(word, ["stop"], cutoff=0.7)
         if word not in (*COMMANDS, *(verb.text for verb in VERBS)) and (
             b"stop" in line or meant or word in ("s", "st", "sto")
