@@ -13,7 +13,7 @@ from hw.ports import AngleSource, Direction
 from rotator.control.axis.axis_base import AxisBase
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import JogGoal, SeekGoal
-from rotator.control.axis.held_watch import HeldWatch
+from rotator.control.axis.held_watch import COASTS_S, HeldWatch
 from rotator.control.axis.pace import Pace
 from rotator.control.axis.positioned_law import PositionedLaw, Sent
 from rotator.control.axis.reach import LOST_AFTER_S, lost
@@ -50,6 +50,8 @@ class PositionedAxis(AxisBase[PositionedSettings]):
             near_deg=settings.near_deg,
             stray_deg=SERVO_STRAY_DEG if servo else STRAY_DEG,
         )
+        self._ordered_s = -math.inf
+        """When it was last sent somewhere."""
         self._held = HeldWatch(settings.axis, settings.speed_dps, master=settings.master)
         self._seen_s = 0.0
         """The moment of the present cycle."""
@@ -101,6 +103,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         self._seen_s = now_s
         if reading.condition.scale != self._condition.scale:
             self._sensing.begin_anew(self._sensing.calibration)
+            self._seen_turning.driven()  # another angle, and no turn
         unbelievable = self._sense(reading, now_s, self._readings.noise_deg)
         for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
             self._readings.see(at_s, angle_deg, self._settings.speed_dps)
@@ -236,7 +239,9 @@ class PositionedAxis(AxisBase[PositionedSettings]):
             self._goal = replace(self._goal, end_deg=command.angle_deg)
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
-        if self.driven:
+        if self.homing or self._sent is not None:
+            self._ordered_s = now_s
+        if now_s - self._ordered_s <= COASTS_S:
             self._seen_turning.driven()
 
     def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:

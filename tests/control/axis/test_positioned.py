@@ -116,6 +116,25 @@ def test_a_jog_for_a_while_ends_by_itself(motor: Motor) -> None:
     assert motor.angle_deg == pytest.approx(115.0, abs=1.0)
 
 
+def test_a_coast_and_an_angle_that_was_told_are_no_turning_by_itself(motor: Motor) -> None:
+    def seen_dps(rate_dps: float, seconds: float) -> set[int]:
+        seen = set()
+        for _ in range(round(seconds / STEP_S)):
+            motor.angle_deg += rate_dps * STEP_S
+            motor.step()
+            motor.axis.note_driven(motor.now_s, Direction.OFF)
+            seen.add(round(motor.axis.status(motor.now_s).by_itself_dps))
+        return seen
+
+    motor.axis.jog(Direction.PLUS, 0.5, 0.0)
+    assert seen_dps(0.0, 0.5) == {0}
+    assert seen_dps(2.0, 0.96) == {0}, "it slows down"
+    assert seen_dps(0.0, 1.5) == {0}
+    motor.angle_deg, motor.condition = 200.0, Condition(scale=1)
+    assert seen_dps(0.0, 1.5) == {0}, "another angle for the same place"
+    assert 2 in seen_dps(2.0, 2.0)
+
+
 def test_not_set_up_a_press_lasts_two_seconds() -> None:
     motor = Motor(missing=(Missing.HOMING,))
     motor.axis.jog(Direction.PLUS, None, 0.0)
