@@ -17,7 +17,7 @@ from benchmarks.drills.play import FAILS, play
 from benchmarks.drills.script import Drill
 from tests.search import some
 
-SEEDS = [f"brake-{number}" for number in range(80)]
+SEEDS = [f"brake-{number}" for number in range(40)]
 
 
 def braked(seed: str, kind: str) -> Drill:

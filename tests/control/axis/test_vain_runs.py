@@ -14,6 +14,7 @@ from rotator.control.sky.mount import Range
 from rotator.exchange.faults import Fault, FaultKind
 from rotator.exchange.motor import ALL_OPEN, Motor
 from tests.control.axis.switch import Switch
+from tests.search import some
 
 STEP_S = 0.05
 SPEED_DPS = 6.0
@@ -156,7 +157,8 @@ def test_after_a_run_that_has_moved_the_axis_the_next_start_does_not_wait() -> N
     assert not bench.settles
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.search
+@pytest.mark.parametrize("seed", some(range(40)))
 def test_a_motor_that_holds_its_antenna_against_a_steady_wind_is_not_accused(seed: int) -> None:
     """Each short run leads it back to its target, and the wind turns it away again, by as much."""
     chance = random.Random(seed)
@@ -170,7 +172,8 @@ def test_a_motor_that_holds_its_antenna_against_a_steady_wind_is_not_accused(see
     assert bench.faults == []
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.search
+@pytest.mark.parametrize("seed", some(range(40)))
 def test_a_motor_that_stands_is_a_fault_among_noise_in_runs_of_any_length(seed: int) -> None:
     chance = random.Random(seed)
     noise_deg, way = chance.choice((0.0, 0.1, 0.2, 0.4)), chance.choice((PLUS, MINUS))
