@@ -68,7 +68,7 @@ def test_passes_as_json(tmp_path: Path) -> None:
     found = read(told(tmp_path, "passes", "--from", EVENING, "--hours", "6", "--json"))
     assert [each["name"] for each in found] == ["ISS", "SO-50", "ISS", "SO-50", "ISS", "SO-50", "ISS"]
     first = found[0]
-    assert first["aos"] == "2025-03-01T00:00:10.565Z"
+    assert first["aos"] == "2025-03-01T00:00:10.569Z"
     fields = ["name", "aos", "los", "tca", "aos_az_deg", "los_az_deg", "max_el_deg", "expected_error_deg", "plan"]
     assert list(first) == fields
     assert 0 < first["expected_error_deg"] < 1
