@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -177,20 +177,12 @@ class Chips:
 
     def closed(self, config: Config, switches: Mapping[str, int]) -> dict[str, bool]:
         """Which of these switches to ground are closed; takes their lines for a moment. Raises HardwareError."""
-        inputs = GpioInputs(self.gpio(), self.header(config), switches, consumer="doctor")
-        try:
+        with closing(GpioInputs(self.gpio(), self.header(config), switches, consumer="doctor")) as inputs:
             return inputs.read()
-        finally:
-            inputs.close()
 
-    @contextmanager
-    def bus(self, number: int) -> Iterator[SmbusI2C]:
+    def bus(self, number: int) -> AbstractContextManager[SmbusI2C]:
         """Raises HardwareError where it cannot be opened."""
-        bus = self.open_bus(number)
-        try:
-            yield bus
-        finally:
-            bus.close()
+        return closing(self.open_bus(number))
 
     @contextmanager
     def converter(self, config: Config) -> Iterator[Converter]:

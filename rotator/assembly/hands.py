@@ -5,9 +5,12 @@ Part of the composition root. Knows the simulated panel. A real panel has its ow
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 from firmware_sim.panel import SimPanel
 from firmware_sim.rotors.rotor import SimRotor
-from rotator.exchange.orders import Mode
+from hw.ports import Axis
 from rotator.protocols.console_session import Hands
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 
@@ -20,41 +23,27 @@ def hands(world: SimRotor | None) -> Hands:
             return "this box is on real hardware: turn the panel's own switches"
         if world.panel is None:
             return "this box has no front panel: its file fits no part of [panel]"
-        if key := _unfitted(world.panel, hand):
+        key, place, act = _part(world.panel, hand)
+        if place is None:
             return f"this panel has no such part: {key} is not in the file"
-        _move(world.panel, hand)
+        act()
         return ""
 
     return move
 
 
-def _unfitted(panel: SimPanel, hand: Hand) -> str:
-    """The key of the part that the panel lacks for this; empty: it has it."""
+def _part(panel: SimPanel, hand: Hand) -> tuple[str, int | None, Callable[[], None]]:
+    """The key of the part; its line or input, None where the panel lacks it; and what moves it."""
     spec = panel.spec
     match hand:
-        case TurnMode():
-            key, place = "panel.mode_msb", spec.mode_msb
-        case TurnKnob(axis):
-            key = f"panel.{axis.value}_knob"
-            place = spec.azimuth_knob if axis.value == "azimuth" else spec.elevation_knob
-        case ThrowJog():
-            key, place = "panel.jog", spec.jog
-        case StopButton():
-            key, place = "panel.stop", spec.stop
-    return key if place is None else ""
+        case TurnMode(mode):
+            from rotator.panel.inputs import POSITIONS  # noqa: PLC0415 - many a box has no panel
 
-
-def _move(panel: SimPanel, hand: Hand) -> None:
-    from rotator.panel.inputs import POSITIONS  # noqa: PLC0415 - many a box has no panel
-
-    match hand:
-        case TurnMode(Mode() as mode):
-            panel.turn_mode(POSITIONS.index(mode))
+            return "panel.mode_msb", spec.mode_msb, partial(panel.turn_mode, POSITIONS.index(mode))
         case TurnKnob(axis, share):
-            panel.turn_knob(axis.value, share)
+            knob = spec.azimuth_knob if axis is Axis.AZIMUTH else spec.elevation_knob
+            return f"panel.{axis.value}_knob", knob, partial(panel.turn_knob, axis.value, share)
         case ThrowJog(axis, direction, seconds):
-            panel.throw(axis.value, int(direction), seconds)
-        case StopButton(True):
-            panel.press_stop()
-        case StopButton():
-            panel.pull_stop()
+            return "panel.jog", spec.jog, partial(panel.throw, axis.value, int(direction), seconds)
+        case StopButton(pressed):
+            return "panel.stop", spec.stop, panel.press_stop if pressed else panel.pull_stop

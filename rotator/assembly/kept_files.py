@@ -61,7 +61,7 @@ def build_learnt(config: Config, state: State) -> KeptMotors:
         table = config.axis(axis)
         motor: dict[str, object] = {"hardware": config.rotor.hardware}
         motor |= {"speed_dps": table.speed_dps, "coast_s": table.coast_s}
-        if config.rotor.hardware == "sim":
+        if config.simulated:
             motor["sim"] = config.sim.of(axis).model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
         return motor
 

@@ -112,7 +112,7 @@ def build_controller(
             elevation=elevation,
             mount=mount,
             period_s=1 / config.control.rate_hz,
-            simulated=config.rotor.hardware == "sim",
+            simulated=config.simulated,
             park_after_s=config.mount.park_after_s,
             on_sky=config.mount.tolerance == "sky",
             latch=latch,
@@ -144,7 +144,7 @@ def axis_settings(
     points = None if commissioning and not in_degrees else own_points(config, axis)
     calibration = None if points is None else Calibration(shift.reported(axis, points))
     window = Window(table.lowest_reading, table.highest_reading, pot=config.has_pot(axis))
-    lacks = () if config.rotor.hardware == "sim" else missing(table, calibrated=points is not None)
+    lacks = () if config.simulated else missing(table, calibrated=points is not None)
     if not config.rotor.switched:
         return PositionedSettings(
             axis=axis,
@@ -240,7 +240,7 @@ def own_points(config: Config, axis: Axis) -> Points | None:
         return (table.min_deg, table.min_deg), (table.max_deg, table.max_deg)
     if table.calibration is not None:
         return tuple(table.calibration)
-    if config.rotor.hardware == "sim":
+    if config.simulated:
         low_raw, high_raw = SIM_CALIBRATION_RAW
         return (low_raw, table.min_deg), (high_raw, table.max_deg)
     return None

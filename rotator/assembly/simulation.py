@@ -144,7 +144,7 @@ def simulated_boom(config: Config) -> Callable[[float, float], tuple[float, floa
 
 def kept_world(config: Config) -> WorldState | None:
     """The simulated world as the last run left it; None: it begins anew. Raises HardwareError for a damaged file."""
-    if config.rotor.hardware != "sim" or config.sim.world is None:
+    if not config.simulated or config.sim.world is None:
         return None
     try:
         return world_file.read(Path(config.sim.world))

@@ -87,7 +87,7 @@ class Station:
         self._sleep = sleep
         self.world = world
         simulated = SimulatedStation(config, clock, sleep if config.sim.bus_takes_time else None, start_deg)
-        if config.rotor.hardware == "sim" and world is None:
+        if config.simulated and world is None:
             self.world = simulated.build()
         self.sentinel = None
         # If a later part is missing, the parts opened so far are closed again, in the opposite order.

@@ -47,7 +47,7 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount, state: State
     reader, planner, box = FileReader(), ProcessPlanner(), TrackedBox(config, loop, mount)
     favourites = KeptFavourites(state)
     sky = KnownSky(build_site(config.station), build_later_catalogue(config, reader.read), favourites.target_of)
-    clock, simulated = SystemClock(), config.rotor.hardware == "sim"
+    clock, simulated = SystemClock(), config.simulated
     # A simulated rotor needs no right clock: it may track the sky of any moment.
     tracker = Tracker(
         sky,

@@ -12,12 +12,12 @@ from collections.abc import Generator
 from hw.ports import Direction
 from rotator.calibrating.entries import Entry, Press, StopNow
 from rotator.calibrating.facts import AxisFacts
-from rotator.calibrating.guide import Abandoned, Asked, Guide
+from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Asked, Guide, Steps
 from rotator.calibrating.phrases import Phrases, phrases_for
 from rotator.calibrating.question import Question
 from rotator.calibrating.reading_watch import AxisMoved, ReadingWatch
 from rotator.calibrating.readings import READINGS, Measured, NotTrusted, measure
-from rotator.calibrating.results import Saved
+from rotator.calibrating.results import AxisCalibrated, Saved
 from rotator.exchange.faults import FaultKind, Notice
 from rotator.exchange.orders import Jog, Stop
 from rotator.exchange.status import AxisStatus, Status
@@ -78,6 +78,15 @@ class AxisGuide(Guide):
     def _readings_count(self) -> bool:
         """Whether the readings mean anything yet."""
         return True
+
+    def _save(self, result: AxisCalibrated, keys: str, learnt: tuple[str, ...]) -> Steps:
+        """End with this result, if the operator agrees. `keys`: what is saved, for a terminal."""
+        self.stage = "Save"
+        self._lead("", keys)
+        if (yield from self._agrees("Save this?", "save", learnt, yes="Save it", no="Leave, save nothing")):
+            self.result = result
+        else:
+            self._say(NOTHING_SAVED)
 
     # --- directions
 

@@ -11,7 +11,7 @@ from collections.abc import Generator
 from hw.ports import Direction
 from rotator.calibrating.axis_guide import AxisGuide
 from rotator.calibrating.entries import Number, StopNow, Word
-from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps, position_unknown
+from rotator.calibrating.guide import CONFIRM_S, ORDER_TAKEN_S, Abandoned, Steps, position_unknown
 from rotator.calibrating.question import HALT, Choice, Question
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import NotTrusted
@@ -49,18 +49,14 @@ class DegreesGuide(AxisGuide):
         if self.facts.endless:
             low_deg, high_deg = facts.min_deg, facts.max_deg
             learnt = phrases.no_ends
-            self._lead("", f"[{facts.axis.value}]: no ends, direction checked.")
+            keys = f"[{facts.axis.value}]: no ends, direction checked."
         else:
             low_deg = yield from self._limit(number, "lowest", facts.min_deg, facts.least_deg)
             high_deg = yield from self._limit(number + 1, "highest", facts.max_deg, low_deg + LEAST_SPAN_DEG)
             learnt = phrases.may_be_sent(low_deg, high_deg)
-            self._lead("", f"[{facts.axis.value}]: limits {low_deg:g} to {high_deg:g}, direction checked.")
-        self.stage = "Save"
-        shown = phrases.directions_right, learnt
-        if (yield from self._agrees("Save this?", "save", shown, yes="Save it", no="Leave, save nothing")):
-            self.result = AxisCalibrated(facts.axis, None, low_deg, high_deg)
-        else:
-            self._say(NOTHING_SAVED)
+            keys = f"[{facts.axis.value}]: limits {low_deg:g} to {high_deg:g}, direction checked."
+        result = AxisCalibrated(facts.axis, None, low_deg, high_deg)
+        yield from self._save(result, keys, (phrases.directions_right, learnt))
 
     # --- the angle after power-on
 

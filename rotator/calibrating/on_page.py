@@ -43,7 +43,7 @@ class PageCalibration:
         self._path = path
         self._clock = clock
         self._guide = page_guide(config, axis)
-        if config.rotor.hardware == "sim":
+        if config.simulated:
             self._guide.remarks.append(SIMULATED)
         self._lock = threading.Lock()
         self._entries: deque[Entry] = deque(maxlen=16)

@@ -106,7 +106,7 @@ class CalibrationSession:
 
     async def run(self, tasks: Sequence[str], stop: asyncio.Event) -> bool:
         """`tasks`: names of axes, COMPASS, NORTH, SKY. Returns whether every one of them has a result that is saved."""
-        if self.config.rotor.hardware == "sim":
+        if self.config.simulated:
             self.screen.show(SIMULATED)
         for task in tasks:
             station = self.open_station(self.config)

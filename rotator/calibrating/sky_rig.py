@@ -110,7 +110,7 @@ def check(words: str, config: Config) -> None:
     """Whether these words name a receiver. Raises BadAddress."""
     if words != SIMULATED:
         address(words)
-    elif config.rotor.hardware != "sim":
+    elif not config.simulated:
         raise BadAddress(f"--receiver {SIMULATED} is for a simulated rotor: write the address of your rigctld")
 
 

@@ -53,15 +53,9 @@ class StopwatchGuide(DegreesGuide):
         # It ends at the low stop.
         self._orders.append(Confirm(facts.axis, facts.least_deg + facts.shift_deg))
         limits = f"limits {facts.min_deg:g} to {facts.max_deg:g} as in the file"
-        self._lead(
-            "", f"[timed.{facts.axis.value}]: {times_s[0]:g} s and {times_s[1]:g} s; {limits}, direction checked."
-        )
-        self.stage = "Save"
+        keys = f"[timed.{facts.axis.value}]: {times_s[0]:g} s and {times_s[1]:g} s; {limits}, direction checked."
         learnt = *words.timed(times_s), words.may_be_sent(facts.min_deg, facts.max_deg)
-        if (yield from self._agrees("Save this?", "save", learnt, yes="Save it", no="Leave, save nothing")):
-            self.result = AxisCalibrated(facts.axis, None, facts.min_deg, facts.max_deg, times_s)
-        else:
-            self._say(NOTHING_SAVED)
+        yield from self._save(AxisCalibrated(facts.axis, None, facts.min_deg, facts.max_deg, times_s), keys, learnt)
         return True
 
     def _three_ways(self) -> Generator[None, None, tuple[float, float] | None]:

@@ -13,7 +13,7 @@ from hw.ports import Direction
 from rotator.calibrating.axis_guide import AxisGuide
 from rotator.calibrating.entries import Word
 from rotator.calibrating.facts import AxisFacts
-from rotator.calibrating.guide import BACK, NOTHING_SAVED, Abandoned, Steps
+from rotator.calibrating.guide import BACK, Abandoned, Steps
 from rotator.calibrating.question import Choice, Question
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import READINGS, NotTrusted
@@ -48,16 +48,10 @@ class TableGuide(AxisGuide):
         self._lead("", *table.lines(self._supply_v, facts.lowest_reading, facts.highest_reading))
         self.stage = "Limits"
         limits = yield from self._limits(table)
-        self.stage = "Save"
-        self._lead(
-            "", f"[{facts.axis.value}]: the table above, limits {limits[0]:g} to {limits[1]:g}, direction checked."
-        )
+        keys = f"[{facts.axis.value}]: the table above, limits {limits[0]:g} to {limits[1]:g}, direction checked."
         learnt = *table.learnt(facts.lowest_reading, facts.highest_reading), phrases.may_be_sent(*limits)
-        if (yield from self._agrees("Save this?", "save", learnt, yes="Save it", no="Leave, save nothing")):
-            points = tuple((point.raw, point.angle_deg) for point in table.points)
-            self.result = AxisCalibrated(facts.axis, points, *limits)
-        else:
-            self._say(NOTHING_SAVED)
+        points = tuple((point.raw, point.angle_deg) for point in table.points)
+        yield from self._save(AxisCalibrated(facts.axis, points, *limits), keys, learnt)
 
     def _check_plus(self) -> Generator[None, None, bool]:
         """Returns whether the reading rises with the degrees."""

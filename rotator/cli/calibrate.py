@@ -67,7 +67,7 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
         raise click.UsageError("--target, --at, --receiver and --svg go with: rotator calibrate sky")
     chosen = chosen_faults(path, faults)
     config = load(path)
-    if config.rotor.hardware != "sim" and at_s is not None:
+    if not config.simulated and at_s is not None:
         raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
     _refuse_beside_running_box(config, path)
     _refuse_stopped(config, path)
@@ -148,7 +148,7 @@ def _inject(faults: list[tuple[float, str]], station: Station) -> None:
 def _refuse_beside_running_box(config: Config, path: Path | None) -> None:
     """Raises CommandFailed if the box is running: two programs could open the same serial port or I2C chip. With a
     simulated rotor only a box that uses the same sockets and files counts."""
-    if config.rotor.hardware == "sim":
+    if config.simulated:
         make_sure_of(monitor_path(config.state.path, config.monitor.path, os.environ), path)
         return
     for place in consoles(path):

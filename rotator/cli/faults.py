@@ -21,11 +21,7 @@ _SECONDS = re.compile(r"[0-9]{1,6}(?:[.,][0-9]{0,6})?")
 def fault_names(path: Path | None) -> Collection[str] | None:
     """Those of the simulated rotor of this file; None: it is a real one. Whether its box runs does not count."""
     config = load(path)
-    return (
-        SimulatedStation(config, time.monotonic, None, (0.0, 0.0)).build().faults
-        if config.rotor.hardware == "sim"
-        else None
-    )
+    return SimulatedStation(config, time.monotonic, None, (0.0, 0.0)).build().faults if config.simulated else None
 
 
 def chosen_faults(path: Path | None, texts: tuple[str, ...]) -> list[tuple[float, str]]:

@@ -15,7 +15,7 @@ from rotator.config.load import load
 
 def relays_off(path: Path | None) -> None:
     config = load(path)
-    if config.rotor.hardware == "sim":
+    if config.simulated:
         click.echo("simulated: there is no relay to open")
         return
     lines = switch_lines_off(config)

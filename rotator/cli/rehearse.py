@@ -62,7 +62,7 @@ def rehearse_pass(
     """
     logging.basicConfig(level=logging.WARNING, format="%(levelname).1s %(message)s")
     config = load(path)
-    if config.rotor.hardware != "sim":
+    if not config.simulated:
         config = simulated(config)
     if target is not None and (word is not None or arduino):
         raise click.UsageError("--target is a pass of its own: leave out PASS.csv and --arduino")

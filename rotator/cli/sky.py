@@ -162,7 +162,7 @@ def clock_error_s(config: Config) -> float:
     clock.look(0.0)
     if clock.is_set:
         return clock.error_s
-    if config.rotor.hardware == "sim":
+    if config.simulated:
         return 0.0
     click.echo(UNSET, err=True)
     return ASSUMED_ERROR_S

@@ -36,12 +36,12 @@ def configuration(path: Path | None) -> Iterator[Finding]:
         advice = "Change that in the file; `rotator help keys` has every key." if readable else NO_FILE
         yield from (wrong(f"{fault.name}: {each}", advice) for each in fault.mistakes)
     else:
-        rotor = "a simulated rotor" if config.rotor.hardware == "sim" else "a real rotor"
+        rotor = "a simulated rotor" if config.simulated else "a real rotor"
         yield fine(f"{path or 'the shipped one, because no file is given'}: {rotor}")
 
 
 def axes(_machine: Machine, config: Config) -> Iterator[Finding]:
-    if config.rotor.hardware == "sim":
+    if config.simulated:
         yield fine("a simulated rotor needs no calibration")
         return
     yield from (_set_up(config, axis) for axis in config.fitted)

@@ -151,7 +151,7 @@ def examine(machine: Machine, path: Path | None) -> Examination:
         config = None
     for check in OF_THE_MACHINE:
         findings += [(check.name, finding) for finding in _safely(check.look, machine)]
-    simulated = config is not None and config.rotor.hardware == "sim"
+    simulated = config is not None and config.simulated
     for station_check in OF_THE_STATION:
         if config is not None and not station_check.concerns(config):
             continue
@@ -178,7 +178,7 @@ def look_of(check: Check[[Machine, Config]]) -> Callable[[Machine, Config], Iter
 
     def look(machine: Machine, config: Config) -> Iterator[Finding]:
         left_alone = wires.running(machine, config) if check.alone else None
-        if check.on_a_pi and config.rotor.hardware == "sim":
+        if check.on_a_pi and config.simulated:
             left_alone = skipped("the rotor is simulated")
         elif check.on_a_pi and not machine.is_pi:
             left_alone = skipped("not a Raspberry Pi")

@@ -83,7 +83,7 @@ def spi(machine: Machine, config: Config) -> Iterator[Finding]:
         lines = [f'; or {use.table}.spi = "lines"' for use in uses if use.table in ON_LINES_TOO]
         yield wrong(str(fault), SPIDEV + "".join(lines[:1]) + ".")
     for use in uses:
-        if config.rotor.hardware == "sim":
+        if config.simulated:
             yield fine(use.chips)
             continue
         for key, pin in use.selects.items():

@@ -65,7 +65,7 @@ def box_is_running(machine: Machine, config: Config) -> bool | None:
 
     None: the GPIO chip cannot be asked.
     """
-    if config.rotor.hardware == "sim":
+    if config.simulated:
         return False
     places = [str(folder / MONITOR) for folder in (*SERVICE_FOLDERS[:1], Path(config.state.path).parent)]
     if machine.listening.intersection([config.monitor.path or "", *places]):

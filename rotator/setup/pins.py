@@ -75,7 +75,7 @@ def _kernel_spi(config: Config) -> list[SpiUse]:
 
 
 def _refuse(config: Config) -> None:
-    if config.rotor.hardware == "sim":
+    if config.simulated:
         raise SetupError(
             'the configuration is of a simulated rotor (hardware = "sim"): '
             'write your pins, and hardware = "pi" under [rotor], into it; then run this again'

@@ -15,9 +15,7 @@ from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulated_axes import STOP_BEYOND_DEG, SimulatedAxes
 from rotator.config.chips import KERNEL_SELECTS
 from rotator.config.model import Config
-from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.stepper import StepperRotor
-from rotator.store.counts import NEVER, CountsFile, Place, Standing
 
 
 def build(parts: Assembly, lines: OutputLines | None) -> StepperRotor:
@@ -28,15 +26,7 @@ def build(parts: Assembly, lines: OutputLines | None) -> StepperRotor:
     specs = {axis: _spec(config, axis) for axis in config.fitted}
     (use,) = config.kind.spi_uses()
     drive = StepperDrive(board.spi(use), specs, board.clock, lines, parts.watch if tables.enable is not None else None)
-    writer = None
-    if parts.counts:
-        writer = CountsWriter(CountsFile(parts.counts, config.kind.cams(config.fitted)), parts.write)
-
-    def first(axis: Axis) -> Place:
-        """A rotor that outlives the program is unknown until it is homed. A simulation begins where the rotor is."""
-        return NEVER if config.keeps_files else Place(Standing.KNOWN, parts.start_deg(axis))
-
-    kept = writer.load() if writer else {axis: first(axis) for axis in config.fitted}
+    writer, kept = parts.kept_counts(config.fitted)
     return StepperRotor(
         drive,
         parts.sensors({axis: drive.sensor(axis) for axis in config.fitted}),
