@@ -13,7 +13,7 @@ import logging
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -73,36 +73,26 @@ def build_links(
         taken.add(name)
         wire = Wire(name, link.protocol, link.where)
         tap.link(wire, link.model_dump(exclude_unset=True))
-        built.append(_build(link, wire, _Shared(loop, mount, tap, sky)))
+        built.append(_build(link, wire, _Connections(link, name, loop, mount, tap=tap, sky=sky)))
     return built
-
-
-@dataclass(frozen=True, slots=True)
-class _Shared:
-    """What all links share."""
-
-    loop: ControlLoop
-    mount: Mount
-    tap: Tap
-    sky: Sky | None
 
 
 class _Connections:
     """Makes the conversation of each connection of one link. Its connections share their rights and log limits."""
 
-    def __init__(self, link: Link, name: str, shared: _Shared) -> None:
+    def __init__(self, link: Link, name: str, loop: ControlLoop, mount: Mount, *, tap: Tap, sky: Sky | None) -> None:
         self._link = link
         self._name = name
-        self._shared = shared
+        self._loop = loop
+        self._mount = mount
+        self._tap = tap
         self._numbers = itertools.count(1)
         self._rights = Rights(link.read_only, link.most_per_s)
         self._complaints = LogLimit(time.monotonic)
         self._ranges = LogLimit(time.monotonic, most=1)
-        self._notices = LogLimit(time.monotonic)
-        self._remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
-        self._make = (
-            None if link.protocol == FOLLOW else session_maker(link, self._remark, sky=shared.sky, notice=self._notice)
-        )
+        remark = partial(self._log, LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS))
+        notice = partial(self._log, LogLimit(time.monotonic))
+        self._make = None if link.protocol == FOLLOW else session_maker(link, remark, sky=sky, notice=notice)
         """None: on this link the box asks."""
 
     def session(self) -> Session:
@@ -112,34 +102,40 @@ class _Connections:
         if self._link.report_moves:
             session = MoveReport(session, client)
         text = self._link.protocol not in BINARY
-        return TappedSession(session, self._shared.tap, source, text=text, ended=client.left, came=client.comes_from)
+        return TappedSession(session, self._tap, source, text=text, ended=client.left, came=client.comes_from)
 
     def follower(self) -> Inquiry:
         source, client = self._client()
-        return TappedInquiry(RotctldFollower(client, self._link.poll_s), self._shared.tap, source)
+        return TappedInquiry(RotctldFollower(client, self._link.poll_s), self._tap, source)
+
+    def report(self) -> Report | None:
+        """What the link sends unasked; None: nothing."""
+        link, source = self._link, Source(self._name)
+        if link.status_to is None or link.rotor_name is None:
+            return None
+        from rotator.links.udp import Report
+        from rotator.protocols.n1mm import N1mmReport
+
+        reporter = N1mmReport(_seen_by(link, Client(self._loop, self._mount, source)), link.rotor_name)
+
+        def due(now_s: float) -> bytes | None:
+            datagram = reporter.due(now_s)
+            self._tap.note(source, Way.OUT, datagram or b"", text=True)
+            return datagram
+
+        return Report(address(link.status_to), due)
 
     def _client(self) -> tuple[Source, Client]:
         source = Source(self._name, next(self._numbers))
-        return source, Client(
-            self._shared.loop,
-            self._shared.mount,
-            source,
-            rights=self._rights,
-            complaints=self._complaints,
-            ranges=self._ranges,
-        )
+        rights, complaints, ranges = self._rights, self._complaints, self._ranges
+        return source, Client(self._loop, self._mount, source, rights=rights, complaints=complaints, ranges=ranges)
 
-    def _remark(self, text: str) -> None:
-        if line := self._remarks.admit(text):
-            log.info("%s: %s", self._name, line)
-
-    def _notice(self, text: str) -> None:
-        if line := self._notices.admit(text):
+    def _log(self, limit: LogLimit, text: str) -> None:
+        if line := limit.admit(text):
             log.info("%s: %s", self._name, line)
 
 
-def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
-    connections = _Connections(link, wire.name, shared)
+def _build(link: Link, wire: Wire, connections: _Connections) -> RunningLink:
     if link.pty is not None:
         return PtyLink(wire, Path(link.pty), connections.session)
     if link.serial is not None:
@@ -161,7 +157,7 @@ def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
             port,
             connections.session,
             answer_port=port + ANSWERS_ABOVE if link.protocol == "pstrotator" else None,
-            report=_report(link, Source(wire.name), shared),
+            report=connections.report(),
             allowed=Allowed(link.allow),
         )
     if link.protocol == FOLLOW:
@@ -181,20 +177,3 @@ def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
 
 def _seen_by(link: Link, box: Box) -> Box:
     return OneAxis(box, Axis(link.axis)) if link.axis else box
-
-
-def _report(link: Link, source: Source, shared: _Shared) -> Report | None:
-    """What a link sends unasked; None: nothing."""
-    if link.status_to is None or link.rotor_name is None:
-        return None
-    from rotator.links.udp import Report
-    from rotator.protocols.n1mm import N1mmReport
-
-    reporter = N1mmReport(_seen_by(link, Client(shared.loop, shared.mount, source)), link.rotor_name)
-
-    def due(now_s: float) -> bytes | None:
-        datagram = reporter.due(now_s)
-        shared.tap.note(source, Way.OUT, datagram or b"", text=True)
-        return datagram
-
-    return Report(address(link.status_to), due)
