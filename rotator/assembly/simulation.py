@@ -12,13 +12,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from firmware_sim import world_file
 from firmware_sim.panel import PanelSpec
 from firmware_sim.parts.mount import MountSpec
 from firmware_sim.rotors.rotor import ENCODERS, LcdSpec, SimRotor
-from firmware_sim.world_file import WorldState
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
-from hw.ports import Axis, HardwareError
+from hw.ports import Axis
 from rotator.assembly.adc import simulate_adc
 from rotator.assembly.kinds import builder
 from rotator.assembly.settings import build_offsets
@@ -39,26 +37,14 @@ AUTO = 2
 """The position AUTO of the simulated mode switch: 2 × MSB + LSB."""
 
 
-class SimulatedStation:
-    """The simulated station that the file describes. `start_deg`: azimuth and elevation where the file names none."""
-
-    def __init__(
-        self,
-        config: Config,
-        clock: Callable[[], float],
-        bus_sleep: Callable[[float], None] | None,
-        start_deg: tuple[float, float],
-    ) -> None:
-        self._config = config
-        self._kept = kept_world(config)
-        rests_deg = self._kept.rests_deg if self._kept else None
-        self._axes = SimulatedAxes(config, clock, bus_sleep, start_deg, rests_deg)
+class SimulatedStation(SimulatedAxes):
+    """The simulated station that the file describes."""
 
     def build(self) -> SimRotor:
-        config = self._config
-        rotor = builder(config.rotor.type).simulate(self._axes)
-        if self._kept:
-            rotor.put_back(self._kept.parts)
+        config = self.config
+        rotor = builder(config.rotor.type).simulate(self)
+        if self.kept:
+            rotor.put_back(self.kept.parts)
         if (lcd := _lcd(config)) is not None:
             rotor.wire_lcd(lcd)
         self._wire_sensors(rotor)
@@ -66,16 +52,12 @@ class SimulatedStation:
         self._wire_limits(rotor)
         return rotor
 
-    def start_deg(self, axis: Axis) -> float:
-        """The start angle, on the rotor's own scale."""
-        return self._axes.start_deg(axis)
-
     def _wire_sensors(self, rotor: SimRotor) -> None:
-        config = self._config
+        config = self.config
         if config.uses_adc:
             added = [axis for axis in config.fitted if config.has_pot(axis) and axis.value not in rotor.wipers]
-            rotor.wire_pots({axis.value: self._axes.pot(axis) for axis in added}, config.adc.supply_v)
-            simulate_adc(config, rotor, self._axes.clock)
+            rotor.wire_pots({axis.value: self.pot(axis) for axis in added}, config.adc.supply_v)
+            simulate_adc(config, rotor, self.clock)
         for axis in config.fitted:
             sensor = config.axis(axis).sensor
             match sensor.kind, sensor.i2c:
@@ -95,7 +77,7 @@ class SimulatedStation:
 
     def _wire_panel(self, rotor: SimRotor) -> None:
         """The front panel, with its mode switch on AUTO."""
-        table = self._config.panel
+        table = self.config.panel
         if not table.fitted:
             return
         wires: dict[str, Any] = {**table.switches, **table.inputs}
@@ -115,7 +97,7 @@ class SimulatedStation:
 
     def _wire_limits(self, rotor: SimRotor) -> None:
         """The switches at the ends of the travel."""
-        config = self._config
+        config = self.config
         for key, pin in config.limits.switches.items():
             name, end = key.split("_")
             limits = config.axis(Axis(name))
@@ -140,16 +122,6 @@ def simulated_boom(config: Config) -> Callable[[float, float], tuple[float, floa
         return spec.direction(azimuth_deg, elevation_deg) if any(terms.values()) else (azimuth_deg, elevation_deg)
 
     return direction
-
-
-def kept_world(config: Config) -> WorldState | None:
-    """The simulated world as the last run left it; None: it begins anew. Raises HardwareError for a damaged file."""
-    if not config.simulated or config.sim.world is None:
-        return None
-    try:
-        return world_file.read(Path(config.sim.world))
-    except (OSError, ValueError) as fault:
-        raise HardwareError(f"sim.world: {fault}; remove the file, then the simulation begins anew") from fault
 
 
 def kept_place(path: Path) -> tuple[float, float]:
