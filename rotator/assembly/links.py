@@ -78,7 +78,8 @@ def build_links(
 
 
 class _Connections:
-    """Makes the conversation of each connection of one link. Its connections share their rights and log limits."""
+    """Makes the conversation of each connection of one link, and what the link sends unasked. The connections share
+    their rights and log limits."""
 
     def __init__(self, link: Link, name: str, loop: ControlLoop, mount: Mount, *, tap: Tap, sky: Sky | None) -> None:
         self._link = link
