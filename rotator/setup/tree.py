@@ -72,13 +72,17 @@ def _content(path: Path) -> Content:
 
 
 def write_new(path: Path, text: str) -> None:
-    """Write a file where there is none, nor a link. Raises SetupError."""
+    """Write a file where there is none, nor a link: whole, or not at all. Raises SetupError."""
+    begun = False
     try:
         with path.open("x", encoding="utf-8") as file:
+            begun = True
             file.write(text)
     except FileExistsError:
         raise SetupError(f"{path} is there already: give another name") from None
     except OSError as fault:
+        if begun:
+            path.unlink(missing_ok=True)
         raise SetupError(f"{path} cannot be written: {fault.strerror}") from fault
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import subprocess
 from collections.abc import Callable
 from itertools import product
@@ -51,3 +52,17 @@ def test_beside_a_box(start: Callable[..., Any], config: Path, tmp_path: Path) -
     code, told = into_a_full_disk(tmp_path, "stop", "--config", str(config))
     assert (code, told) == (0, "rotator: Stopped. Nothing moves until `rotator resume`.\n"), "the antenna has stopped"
     box.until("STOPPED by")
+
+
+def test_half_a_configuration_is_not_left(tmp_path: Path) -> None:
+    """The box would start with it, or a second try find it there."""
+    done = subprocess.run(
+        [*COMMAND, "config", "g5500", "--to", "new.toml"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000)),
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (1, "rotator: new.toml cannot be written: File too large\n")
+    assert not (tmp_path / "new.toml").exists()
