@@ -111,20 +111,20 @@ function found(text, whole) {
 
 let index;
 
-/** The messages with values that may have made this text, those with most words first. One with hardly a word (`open`)
-    counts only where its values are words that are known. */
+/** The messages with values that may have made this text, those with most words first. `has`: the longest piece of one.
+    One with hardly a word (`open`) counts only where its values are words that are known. */
 function patterns(text) {
   if (!index) {
     index = new Map();
     const letters = (message) => message.replace(/\{\d+\}|[^\p{L}]/gu, "").length;
     for (const [message, translation] of [...known].filter(([each]) => each.includes("{0}")).sort(([a], [b]) => letters(b) - letters(a))) {
-      const open = letters(message) < 6, pieces = message.split(/\{\d+\}/).map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+      const open = letters(message) < 6, parts = message.split(/\{\d+\}/), pieces = parts.map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
       // Where two values touch, the second one is a clause of its own, or nothing.
       const value = (next) => (next === "" ? "((?:(?![,;:] | \\()[^])*)" : open ? "([^]+?)" : "([^]*?)");
       const pattern = new RegExp(`^${pieces.map((each, at) => (at ? value(at < pieces.length - 1 ? each : null) : "") + each).join("")}$`);
       const first = /^[^\s{]+(?=\s)/.exec(message)?.[0] ?? "";
-      index.set(first, [...(index.get(first) ?? []), { pattern, translation, open }]);
+      index.set(first, [...(index.get(first) ?? []), { pattern, translation, open, has: parts.sort((a, b) => b.length - a.length)[0] }]);
     }
   }
-  return [...(index.get(/^\S+/.exec(text)[0]) ?? []), ...(index.get("") ?? [])];
+  return [...(index.get(/^\S+/.exec(text)[0]) ?? []), ...(index.get("") ?? [])].filter(({ has }) => text.includes(has));
 }
