@@ -23,7 +23,7 @@ def test_letting_go_is_asked_about_first(
     for key, code, told in (("n", 1, "nothing was done"), ("y", 0, "Nothing moves until `rotator resume`.")):
         assert console.heard == []
         asking = start_in_terminal("let-go", "--config", config)
-        asking.until(r"an antenna that is out of balance turns. Let go of both axes\? \[y/N\]: ")
+        asking.until(r"an antenna that is out of balance turns. Let go of it\? \[y/N\]: ")
         asking.press(f"{key}\r")
         assert asking.ends() == code
         assert told in asking.rest
