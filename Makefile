@@ -26,7 +26,7 @@ style: $(VENV)/.dev
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
 
-check: style
+check: style languages-check
 	$(BIN)/mypy
 
 tests: $(VENV)/.dev

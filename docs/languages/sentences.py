@@ -44,7 +44,7 @@ _NO_SENTENCE = re.compile(
     r"^[-abs]{3} [-abs]{3} | \+ Enter: |^(?:relays-checked|home|confirm) \{|^\{0\}\{1\}|/api/|max-age|stop = true"
     r"|as the body of|^bold|: write .*rotator|^[\w.-]+$|[<>]|^/|\\|==|^rotator [a-z]|Content-|\bsvg\b"
     r"|^[a-z-]+ '|; |%[sd]|`|\bEnter\b|\by or n\b|\bor b:|\bor n:|rotator calibrate|^which no |^field |^reading"
-    r"|\? lists|nothing here|back here|^Type y |^b takes|^the arrows|^Setting up the|compass \{1\}$|t angle:$"
+    r"|\? lists|^\[|nothing here|back here|^Type y |^b takes|^the arrows|^Setting up the|compass \{1\}$|t angle:$"
 )
 _COMMAND = re.compile(r"^sudo [^.;:,]*$|^sudo ip |^rotator [a-z]+$|^\{0\} \{1\}$|^bold|\|")
 """What of the doctor's advice is a command and no more."""
