@@ -191,7 +191,8 @@ class Judges:
         refused = any(other.stalls or other.befallen for other in self.cases if other is not case)
         plain = not (self.goes_round or refused) and case.trusted
         known = plain and goals and all(goal.angles_deg for goal in goals)
-        if not known or any(self._nearing(goal, here_deg, truth, case) for goal in goals):
+        slack_deg = 2.0 * case.tolerance_deg + case.slack_deg
+        if not known or any(self._nearing(goal, here_deg, truth.power, slack_deg) for goal in goals):
             case.away_s = 0.0
             return
         case.away_s += self._past_s
@@ -202,10 +203,9 @@ class Judges:
             self._accuse(AWAY, truth, measured)
 
     @staticmethod
-    def _nearing(goal: Goal, here_deg: float, truth: AxisTruth, case: AxisCase) -> bool:
-        """Whether the axis moves towards one of the goal's angles, or is near it."""
-        slack_deg = 2.0 * case.tolerance_deg + case.slack_deg
-        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in goal.angles_deg)
+    def _nearing(goal: Goal, here_deg: float, way: float, slack_deg: float = 0.0) -> bool:
+        """Whether an axis that turns that way comes nearer to one of the goal's angles, or is past it by the slack."""
+        return any((angle_deg - here_deg) * way > -slack_deg for angle_deg in goal.angles_deg)
 
     def elsewhere(self, axes: list[AxisTruth]) -> frozenset[str]:
         """The axes that stand far from the angles of all orders in force for them."""
@@ -222,8 +222,7 @@ class Judges:
             for truth, case in zip(axes, self.cases, strict=True)
             if self._orders.holds(truth.name)
             for goal in self._orders.axes[truth.name].goals.values()
-            if not goal.angles_deg
-            or any((place - truth.shaft_deg - case.shift_deg) * truth.speed_dps > 0.0 for place in goal.angles_deg)
+            if not goal.angles_deg or self._nearing(goal, truth.shaft_deg + case.shift_deg, truth.speed_dps)
         )
 
     def _far(self, truth: AxisTruth, case: AxisCase) -> bool:

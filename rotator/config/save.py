@@ -49,7 +49,10 @@ def changed(text: str, tables: Tables) -> str:
     for name, values in tables.items():
         wanted |= {(*name.split("."), key): _written(value) for key, value in values.items()}
         match mount.get(park := f"park_{name}_deg"), values:
-            case float() | int() as park_deg, {"min_deg": float(least_deg), "max_deg": float(most_deg)}:
+            case float() | int() as park_deg, {
+                "min_deg": float() | int() as least_deg,
+                "max_deg": float() | int() as most_deg,
+            }:
                 # A rotor that turns less far than the file had it parks as near to its old place as it can.
                 wanted["mount", park] = _short(min(max(park_deg, least_deg), most_deg))
     return edited(text, [Change(place, value) for place, value in wanted.items()])

@@ -49,9 +49,10 @@ def test_all_keys_are_in_the_file_the_rest_stays_and_the_file_before_is_kept(sta
     assert sorted(path.name for path in station.parent.iterdir()) == ["station.toml", "station.toml.bak"]
 
 
-def test_a_range_that_leaves_the_park_position_out_takes_it_along(station: Path) -> None:
+@pytest.mark.parametrize("least_deg", [200.0, 200])
+def test_a_range_that_leaves_the_park_position_out_takes_it_along(station: Path, least_deg: float) -> None:
     """Else the file would be refused, and the calibration lost."""
-    save_tables(station, {"azimuth": {"calibration": POINTS, "min_deg": 200.0, "max_deg": 451.0}})
+    save_tables(station, {"azimuth": {"calibration": POINTS, "min_deg": least_deg, "max_deg": 451.0}})
     assert load(station).park_deg == (200.0, 0.0)
     assert "park_azimuth_deg = 200        # south" in station.read_text()
 
